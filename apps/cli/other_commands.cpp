@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "exit_code.h"
@@ -48,6 +49,17 @@ void require_names(const ReportArguments& arguments) {
                              ""});
 }
 
+/// @throws InputError for files of other commands, whose pages these write themselves
+void require_runs(const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files)
+    if (const std::optional<std::string> kind = results::Reader(file).text_attribute("/", "kind"))
+      throw InputError(Fault{{file.string(), 0, 0},
+                             "",
+                             "results of another kind: " + *kind,
+                             "results of `hersey run`",
+                             "`hersey rotor --report` writes the page of a rotor"});
+}
+
 }  // namespace
 
 void warn(const std::vector<Fault>& warnings) {
@@ -80,6 +92,7 @@ int check_command(const CheckArguments& arguments) {
 }
 
 int report_command(const ReportArguments& arguments) {
+  require_runs(arguments.results);
   const std::filesystem::path page =
       arguments.output.empty() ? arguments.results.front().parent_path() / "report.html" : arguments.output;
   require_names(arguments);

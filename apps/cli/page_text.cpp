@@ -13,7 +13,7 @@ namespace hersey::cli {
 std::string text_of(const std::vector<report::CurvePage::Table>& tables) {
   std::string text;
   for (const report::CurvePage::Table& table : tables) {
-    std::vector<std::size_t> widths(table.lines[0].size(), 0);
+    std::vector<std::size_t> widths(table.lines.empty() ? 0 : table.lines[0].size(), 0);
     for (const auto& line : table.lines)
       for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
     text += (text.empty() ? "" : "\n") + table.title + "\n";

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -74,6 +76,12 @@ void screen(const study::RotorAtSpeed& at, double Q, RotorFindings& found) {
   found.screening = study::screen_stability(at.state, {at.state.places.at(found.screened_at), Q});
 }
 
+bool is_hdf5_name(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".h5" || ending == ".hdf5";
+}
+
 RotorFindings find(const RotorArguments& arguments, const session::Session& session) {
   RotorFindings found;
   std::optional<double> cross_coupling;
@@ -120,11 +128,13 @@ int rotor_command(const RotorArguments& arguments) {
   const RotorFindings found = find(arguments, session);
   bool all_solved = true;
   for (const study::RotorAtSpeed& at : found.rotor) {
+    if (!at.state.warning.empty()) say("warning: {}{}{}\n", at.label, at.label.empty() ? "" : ": ", at.state.warning);
     if (at.state.solved()) continue;
     all_solved = false;
     say("hersey: {}{}{}\n", at.label, at.label.empty() ? "" : ": ", at.state.message);
   }
-  const bool as_hdf5 = arguments.results.extension() == ".h5";
+  for (const std::string& remark : remarks_on_peaks(found)) say("warning: {}\n", remark);
+  const bool as_hdf5 = is_hdf5_name(arguments.results);
   const std::string json = arguments.json || (!arguments.results.empty() && !as_hdf5)
                                ? rotor_json(found, arguments.model).dump(2) + "\n"
                                : std::string();

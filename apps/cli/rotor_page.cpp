@@ -8,6 +8,7 @@
 #include <complex>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -84,15 +85,17 @@ json speed_json(const RotorAtSpeed& at) {
   }
   one["speed"] = at.state.speed / kRpm;
   one["sense"] = at.state.sense;
+  if (!at.state.warning.empty()) one["warning"] = at.state.warning;
   for (const run::RotorBearing& bearing : at.state.bearings) one["bearings"][bearing.name] = bearing_json_of(bearing);
   one["modes"] = json::array();
   for (std::size_t k = 0; k < at.modes.size(); ++k) one["modes"].push_back(mode_json(at.modes[k], at.tracks[k]));
   if (!at.response) return one;
   for (std::size_t s = 0; s < at.state.stations.size(); ++s)
-    one["unbalance"]["stations"][at.state.stations[s].name] = orbit_json(at.response->stations[s], at.state.sense);
+    one["unbalance"]["stations"][at.state.stations[s].name] =
+        orbit_json(at.response->stations[s], at.state.stations[s].sense);
   for (std::size_t b = 0; b < at.state.bearings.size(); ++b)
     one["unbalance"]["bearing_forces"][at.state.bearings[b].name] =
-        orbit_json(at.response->bearings[b], at.state.sense);
+        orbit_json(at.response->bearings[b], at.state.stations[at.state.bearings[b].station].sense);
   return one;
 }
 
@@ -106,16 +109,17 @@ json peak_json(const RotorFindings& found, const study::ResponsePeak& peak) {
   json one{{"station", first_solved(found)->state.stations[peak.station].name},
            {"speed", peak.speed / kRpm},
            {"amplitude", peak.amplitude},
-           {"amplification_factor", number_or_null(peak.amplification)}};
+           {"amplification_factor", number_or_null(peak.amplification)},
+           {"is_resolved", peak.is_resolved}};
   if (!found.operating) return one;
   const study::SeparationMargin margin = study::separation_margin(peak.speed, peak.amplification, *found.operating);
-  one["separation_margin"] = margin.actual;
+  one["separation_margin"] = peak.is_resolved ? json(margin.actual) : json(nullptr);
   one["required_margin"] = margin.required;
-  one["is_enough"] = margin.is_enough();
+  one["is_enough"] = peak.is_resolved && margin.is_enough();
   return one;
 }
 
-/// Modes that move the axis and stay in the reach of the diagram, over speed.
+/// Modes that move the axis, or the torsion of geared shafts, and stay in the reach of the diagram, over speed.
 std::map<int, std::vector<std::pair<const RotorAtSpeed*, const run::WhirlMode*>>> tracks_of(
     const RotorFindings& found) {
   std::map<int, std::vector<std::pair<const RotorAtSpeed*, const run::WhirlMode*>>> tracks;
@@ -123,7 +127,7 @@ std::map<int, std::vector<std::pair<const RotorAtSpeed*, const run::WhirlMode*>>
   for (const RotorAtSpeed& at : found.rotor) fastest = std::max(fastest, at.state.speed);
   for (const RotorAtSpeed& at : found.rotor)
     for (std::size_t k = 0; k < at.modes.size(); ++k)
-      if (at.modes[k].whirl != Whirl::none && at.modes[k].mode.s.imag() < 2 * fastest)
+      if ((at.modes[k].whirl != Whirl::none || at.state.is_geared) && at.modes[k].mode.s.imag() < 2 * fastest)
         tracks[at.tracks[k]].emplace_back(&at, &at.modes[k]);
   return tracks;
 }
@@ -172,15 +176,35 @@ void add_modes(const RotorFindings& found, CurvePage& page) {
   page.charts.push_back(std::move(decrement));
 }
 
+/// Motion at a station, or force in a bearing, by its name; unset where that speed has none.
+std::optional<Orbit> station_orbit(const RotorAtSpeed& at, const std::string& name) {
+  const auto place = at.state.places.find(name);
+  if (place == at.state.places.end()) return std::nullopt;
+  return at.response->stations[place->second];
+}
+
+std::optional<Orbit> bearing_orbit(const RotorAtSpeed& at, const std::string& name) {
+  const run::RotorBearing* bearing = bearing_called(at, name);
+  if (bearing == nullptr) return std::nullopt;
+  return at.response->bearings[static_cast<std::size_t>(bearing - at.state.bearings.data())];
+}
+
+template <class Value>
+std::optional<double> of_orbit(const std::optional<Orbit>& orbit, Value value) {
+  return orbit ? std::optional<double>(value(*orbit)) : std::nullopt;
+}
+
 template <class Value>
 CurveChart over_speed(const RotorFindings& found, CurveChart made, const std::vector<std::string>& names, Value value) {
   for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), kStationsShown); ++k) {
     CurveLine line{names[k], {}, {}};
-    for (const RotorAtSpeed& at : found.rotor)
-      if (at.response) {
-        line.x.push_back(at.state.speed / kRpm);
-        line.y.push_back(value(at, k));
-      }
+    for (const RotorAtSpeed& at : found.rotor) {
+      if (!at.response) continue;
+      const std::optional<double> of_name = value(at, names[k]);
+      if (!of_name) continue;
+      line.x.push_back(at.state.speed / kRpm);
+      line.y.push_back(*of_name);
+    }
     made.lines.push_back(std::move(line));
   }
   return made;
@@ -194,18 +218,24 @@ void add_response(const RotorFindings& found, CurvePage& page) {
   for (const run::RotorBearing& bearing : first->state.bearings) bearings.push_back(bearing.name);
   page.charts.push_back(over_speed(
       found, chart("Unbalance response", "Half of the longest diameter of the orbit.", "amplitude", "um", false),
-      stations, [](const RotorAtSpeed& at, std::size_t k) { return 1e6 * at.response->stations[k].major(); }));
+      stations, [](const RotorAtSpeed& at, const std::string& name) {
+        return of_orbit(station_orbit(at, name), [](const Orbit& orbit) { return 1e6 * orbit.major(); });
+      }));
   page.charts.push_back(over_speed(
       found,
       chart("Phase", "Angle by which the motion along " + first->state.x_name + " lags behind a mark at phase zero.",
             "lag", "deg", false),
-      stations, [](const RotorAtSpeed& at, std::size_t k) { return lag_of(at.response->stations[k].x); }));
+      stations, [](const RotorAtSpeed& at, const std::string& name) {
+        return of_orbit(station_orbit(at, name), [](const Orbit& orbit) { return lag_of(orbit.x); });
+      }));
   if (bearings.empty()) return;
-  page.charts.push_back(
-      over_speed(found,
-                 chart("Forces of unbalance on the shaft", "Half of the longest diameter of their hodograph.", "force",
-                       "N", false),
-                 bearings, [](const RotorAtSpeed& at, std::size_t k) { return at.response->bearings[k].major(); }));
+  page.charts.push_back(over_speed(found,
+                                   chart("Forces of unbalance on the shaft",
+                                         "Half of the longest diameter of their hodograph.", "force", "N", false),
+                                   bearings, [](const RotorAtSpeed& at, const std::string& name) {
+                                     return of_orbit(bearing_orbit(at, name),
+                                                     [](const Orbit& orbit) { return orbit.major(); });
+                                   }));
 }
 
 void add_map(const RotorFindings& found, CurvePage& page) {
@@ -237,7 +267,9 @@ void add_map(const RotorFindings& found, CurvePage& page) {
       CurveLine line{first->state.bearings[b].name + ", " + name, {}, {}};
       for (const RotorAtSpeed& at : found.rotor) {
         if (!at.state.solved()) continue;
-        const double k = at.state.bearings[b].stiffness(row, row);
+        const run::RotorBearing* bearing = bearing_called(at, first->state.bearings[b].name);
+        if (bearing == nullptr) continue;
+        const double k = bearing->stiffness(row, row);
         if (k < found.map->stiffness.front() || k > found.map->stiffness.back()) continue;
         line.x.push_back(k);
         line.y.push_back(at.state.speed / kRpm);
@@ -261,6 +293,7 @@ CurvePage::Table peaks_table(const RotorFindings& found) {
                          "Amplification factors and separation margins as in API 617 and API 684; below 2.5 a peak is "
                          "critically damped and needs no margin.",
                          {}};
+  for (const std::string& remark : remarks_on_peaks(found)) table.note += " " + remark;
   table.lines = {{"station", "speed", "amplitude", "AF"}, {"", "rpm", "um", "1"}};
   if (found.operating)
     for (const auto& [name, unit] : {std::pair{"margin", "%"}, std::pair{"required", "%"}, std::pair{"enough", ""}})
@@ -271,9 +304,9 @@ CurvePage::Table peaks_table(const RotorFindings& found) {
                                  std::isfinite(peak.amplification) ? fmt::format("{:.2f}", peak.amplification) : "-"};
     if (found.operating) {
       const study::SeparationMargin margin = study::separation_margin(peak.speed, peak.amplification, *found.operating);
-      row.push_back(fmt::format("{:.1f}", 100 * margin.actual));
+      row.push_back(peak.is_resolved ? fmt::format("{:.1f}", 100 * margin.actual) : "-");
       row.push_back(fmt::format("{:.1f}", 100 * margin.required));
-      row.emplace_back(margin.is_enough() ? "yes" : "no");
+      row.emplace_back(!peak.is_resolved ? "-" : margin.is_enough() ? "yes" : "no");
     }
     table.lines.push_back(std::move(row));
   }
@@ -294,6 +327,11 @@ CurvePage::Table stability_table(const RotorFindings& found) {
                            fmt::format("{:.3f}", mode->mode.damped_frequency),
                            fmt::format("{:.3f}", mode->mode.s.imag() / at->state.speed),
                            decrement_text(mode->log_decrement), whirl_word(mode->whirl)});
+  }
+  if (last.empty()) {
+    table.title = "Modes: none up to twice the highest speed moves the axis and oscillates";
+    table.note.clear();
+    table.lines.clear();
   }
   return table;
 }
@@ -324,6 +362,25 @@ std::vector<CurvePage::Table> tables_of(const RotorFindings& found) {
 }
 
 }  // namespace
+
+const run::RotorBearing* bearing_called(const RotorAtSpeed& at, const std::string& name) {
+  const auto& all = at.state.bearings;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& bearing) { return bearing.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> remarks_on_peaks(const RotorFindings& found) {
+  std::vector<std::string> remarks;
+  for (const study::ResponsePeak& peak : found.peaks)
+    if (!peak.is_resolved)
+      remarks.push_back(fmt::format(
+          "The speeds of the sweep are too far apart for the peak of {} at {:.0f} rpm, which may be higher and "
+          "sharper: "
+          "no amplification factor and no margin are given. Sweep {:.0f} rpm to {:.0f} rpm in smaller steps.",
+          first_solved(found)->state.stations[peak.station].name, peak.speed / kRpm, peak.before / kRpm,
+          peak.after / kRpm));
+  return remarks;
+}
 
 json rotor_json(const RotorFindings& found, const std::string& file) {
   json all{{"model", file}, {"speeds", json::array()}, {"critical_speeds", json::array()}};

@@ -23,6 +23,10 @@ struct RotorFindings {
   std::optional<study::CriticalSpeedMap> map;
 };
 
+/// What the sweep does not tell of peaks, a sentence or two for each that its speeds are too far apart for.
+[[nodiscard]] std::vector<std::string> remarks_on_peaks(const RotorFindings& found);
+/// The bearing of that name at a speed; null where it has none.
+[[nodiscard]] const run::RotorBearing* bearing_called(const study::RotorAtSpeed& at, const std::string& name);
 /// As JSON, speeds in rpm, all else in SI units.
 [[nodiscard]] nlohmann::json rotor_json(const RotorFindings& found, const std::string& file);
 /// As tables for a terminal.

@@ -189,7 +189,7 @@ void add_rotor(CLI::App& app, Commands& commands) {
       ->add_option("--stiffness-map", rotor->stiffness_map,
                    "Undamped critical speeds over this range of the bearings' stiffness: 1MN/m:10GN/m")
       ->type_name("LOW:HIGH");
-  command->add_option("--results", rotor->results, "Write everything as JSON; to a name ending in .h5 as HDF5")
+  command->add_option("--results", rotor->results, "Write everything as JSON; to a name ending in .h5 or .hdf5 as HDF5")
       ->type_name("FILE");
   command->add_option("--report", rotor->report, "Write a page with diagrams and tables")->type_name("FILE");
   command->add_flag("--json", rotor->json, "Print everything as JSON");

@@ -116,6 +116,25 @@ forces:
   other: {type: bearing_table, between: [ground, rotor], stiffness: {xx: 20 MN/m, yy: 20 MN/m}, damping: {xx: 5 kN.s/m, yy: 5 kN.s/m}}
   u: {type: unbalance, on: rotor, amount: 20 g.mm, phase: 30 deg}
 """
+# Two shafts with teeth between them; the wheel's turns the other way.
+GEARED = """hersey: 1
+parameters: {speed: 3000 rpm, torque: 0 N.m, k_xy: 0 MN/m, mesh: 400 MN/m, mesh_c: 1 kN.s/m, k: 20 MN/m, side: positive}
+bodies:
+  ground: {frames: {second: {origin: 160 0 0 mm}}}
+  pinion: {mass: 3 kg, inertia: {xx: 0.003 kg.m^2, yy: 0.003 kg.m^2, zz: 0.004 kg.m^2}}
+  wheel: {mass: 14 kg, inertia: {xx: 0.05 kg.m^2, yy: 0.05 kg.m^2, zz: 0.09 kg.m^2}}
+joints:
+  turning: {type: planar, between: [ground, pinion], axis: z}
+  other: {type: planar, between: [ground.second, wheel], axis: z, initial: {rotation: 40 deg}}
+forces:
+  mesh: {type: gear_mesh, between: [pinion, wheel], teeth: [23, 57], normal_module: 4 mm, helix_angle: 0 deg, torque_on_first: "${side}", stiffness: "${mesh}", damping: "${mesh_c}"}
+  load: {type: torque, body: wheel, components: [0, 0, "${torque}"]}
+  left: {type: bearing_table, between: [ground, pinion], stiffness: {xx: 60 MN/m, yy: 80 MN/m}, damping: {xx: 20 kN.s/m, yy: 20 kN.s/m}}
+  right: {type: bearing_table, between: [ground.second, wheel], stiffness: {xx: "${k}", yy: "${k}", xy: "-${k_xy}", yx: "${k_xy}"}, damping: {xx: 8 kN.s/m, yy: 8 kN.s/m}}
+  u: {type: unbalance, on: pinion, amount: 10 g.mm}
+drives: {motor: {joint: turning, coordinate: rotation, speed: "${speed}"}}
+simulation: {analysis: steady}
+"""
 LINEAR = "simulation: {analysis: modes, modes_about: turning}"
 
 
@@ -188,6 +207,7 @@ class Rotors(unittest.TestCase):
             words = list(file["modes/whirl"].attrs["words"])
             answer = {name: file[f"unbalance/{name}"][...].reshape(6, len(names)) for name in ("x_real", "x_imaginary", "major_axis")}
             self.assertEqual(file["speed"].shape, (6,))
+            numpy.testing.assert_allclose(file["swept_speed"][...].ravel() * RPM, file["speed"][...], rtol=1e-12)  # round-off of the unit
             for i, at in enumerate(found["speeds"]):
                 self.assertAlmostEqual(file["speed"][i] / (at["speed"] * RPM), 1, delta=1e-12)  # round-off of the unit
                 for k, mode in enumerate(at["modes"]):
@@ -400,6 +420,63 @@ class Rotors(unittest.TestCase):
         self.assertEqual(decrement, sorted(decrement, reverse=True))
         self.assertFalse(self.rotor("jeffcott.yaml", "--cross-coupling", "rotor=40kN/m")["stability_screening"]["is_enough"])
 
+    def test_screening_does_not_depend_on_the_order_of_whirls_of_one_frequency(self):
+        # Slow beside its whirls, whose forward and backward one differ by their damping alone: s^2 m + c s + k -+ i Q = 0.
+        m, k, c = 10, 1e6, 200
+        found = self.rotor("jeffcott.yaml", "--cross-coupling", "rotor=10kN/m", speed="600 rpm")["stability_screening"]
+        for q, decrement in zip(found["Q"], found["log_decrement"], strict=True):
+            root = -c / (2 * m) + cmath.sqrt((c / (2 * m)) ** 2 - complex(k, -q) / m)
+            self.assertAlmostEqual(decrement, -2 * math.pi * root.real / abs(root.imag), delta=1e-6)  # round-off near the double root
+
+    # -- gears ---------------------------------------------------------------------------------------------------
+
+    def swap_bodies(self, text):
+        lines = text.splitlines()
+        pinion, wheel = (next(i for i, line in enumerate(lines) if line.startswith(f"  {name}: {{mass")) for name in ("pinion", "wheel"))
+        lines[pinion], lines[wheel] = lines[wheel], lines[pinion]
+        return "\n".join(lines) + "\n"
+
+    def test_a_shaft_that_teeth_turn_back_has_its_own_sense(self):
+        # With hardly any stiffness of the teeth the wheel is a rotor of its own: Q = c sqrt(k/m) less what its support has.
+        (self.folder / "geared.yaml").write_text(GEARED, encoding="utf-8")
+        sets = {"mesh": "1 kN/m", "mesh_c": "0 N.s/m", "k_xy": "3 MN/m"}
+        found = self.rotor("geared.yaml", "--cross-coupling", "wheel=2MN/m", **sets)["stability_screening"]
+        # x pushed along -y by the support (yx > 0): with a shaft that rotates from y to x.
+        self.assertAlmostEqual(found["threshold_Q"] / (8e3 * math.sqrt(20e6 / 14) - 3e6), 1, delta=1e-3)  # of the teeth's stiffness
+
+    def test_geared_shafts_of_one_speed_do_not_depend_on_the_order_of_bodies(self):
+        even = GEARED.replace("[23, 57]", "[40, 40]")
+        (self.folder / "one.yaml").write_text(even, encoding="utf-8")
+        (self.folder / "other.yaml").write_text(self.swap_bodies(even), encoding="utf-8")
+        one, other = self.at("one.yaml"), self.at("other.yaml")
+        self.assertEqual((one["sense"], other["sense"]), (1, 1))
+        self.assertEqual([m["whirl"] for m in one["modes"]], [m["whirl"] for m in other["modes"]])
+
+    def test_lags_are_those_of_the_shaft_with_the_unbalance(self):
+        (self.folder / "one.yaml").write_text(GEARED, encoding="utf-8")
+        (self.folder / "other.yaml").write_text(self.swap_bodies(GEARED), encoding="utf-8")
+        (self.folder / "upright.yaml").write_text(self.swap_bodies(GEARED).replace("{rotation: 40 deg}", "{rotation: 0 deg}"), encoding="utf-8")
+        lags = [self.at(name)["unbalance"]["stations"]["pinion"]["x_lag_deg"] for name in ("one.yaml", "other.yaml", "upright.yaml")]
+        for lag in lags[1:]:
+            self.assertAlmostEqual(lag, lags[0], delta=1e-6)  # round-off
+
+    def test_torsion_of_geared_shafts_has_a_critical_speed(self):
+        (self.folder / "geared.yaml").write_text(GEARED, encoding="utf-8")
+        done = self.hersey("rotor", self.folder / "geared.yaml", "--sweep", "speed=1000rpm:6000rpm:6", "--set=mesh=1 MN/m", "--json")
+        found = json.loads(done.stdout)
+        torsion = [critical for critical in found["critical_speeds"] if critical["whirl"] == "none"]
+        frequency = [m["damped_frequency"] for m in found["speeds"][2]["modes"] if m["whirl"] == "none"][0]
+        self.assertEqual(len(torsion), 1)
+        self.assertAlmostEqual(torsion[0]["speed"] / 60 / frequency, 1, delta=1e-4)  # the frequency hardly depends on the speed
+        text = self.hersey("rotor", self.folder / "geared.yaml", "--sweep", "speed=1000rpm:6000rpm:6", "--set=mesh=1 MN/m").stdout
+        self.assertIn(f"{frequency:.2f}", text)
+
+    def test_teeth_that_would_part_are_warned_of(self):
+        (self.folder / "geared.yaml").write_text(GEARED, encoding="utf-8")
+        for side, parts in (("negative", True), ("positive", False)):
+            done = self.hersey("rotor", self.folder / "geared.yaml", "--set=torque=800 N.m", f"--set=side={side}")
+            self.assertEqual("mesh: its teeth would part" in done.stderr, parts, done.stderr)
+
     # -- what has no answer, or another one than is asked for ------------------------------------------------------
 
     def write(self, name, old, new, of=JEFFCOTT):
@@ -466,6 +543,60 @@ class Rotors(unittest.TestCase):
         found = self.rotor("jeffcott.yaml", "--sweep", "k=0.2MN/m:2MN/m:7")
         self.assertEqual(found["critical_speeds"], [])
         self.assertNotIn("response_peaks", found)
+
+    def test_peaks_between_few_speeds_have_no_amplification_factor(self):
+        few = ("rotor", self.folder / "jeffcott.yaml", "--operating", "7000rpm", "--sweep", "speed=500rpm:10500rpm:6", "--set=c=20 N.s/m")
+        done = self.hersey(*few, "--json")
+        peak, = json.loads(done.stdout)["response_peaks"]
+        self.assertIsNone(peak["amplification_factor"])
+        self.assertFalse(peak["is_resolved"])
+        self.assertFalse(peak["is_enough"])
+        self.assertIn("Sweep 500 rpm to 4500 rpm in smaller steps", done.stderr)
+        self.assertNotIn("yes", self.hersey(*few).stdout)
+        # Half of the width of the peak at 0.707 is 10 rpm.
+        fine = self.hersey(*few[:5], "speed=2990rpm:3050rpm:25", "--set=c=20 N.s/m", "--json")
+        peak, = json.loads(fine.stdout)["response_peaks"]
+        self.assertTrue(peak["is_resolved"])
+        self.assertAlmostEqual(peak["amplification_factor"] * 20 / math.sqrt(1e6 * 10), 1, delta=0.01)  # steps of a quarter of this half
+        self.assertEqual(fine.stderr, "")
+
+    def test_results_of_a_sweep_that_changes_the_stations(self):
+        import h5py
+        import numpy
+        path = self.folder / "elements.h5"
+        found = self.rotor("thin.yaml", "--sweep", "elements=6,9", "--results", path, mass="30 kg", i_t="0.17 kg.m^2", i_p="0.33 kg.m^2", k_x="1 MN/m", k_y="0.8 MN/m")
+        with h5py.File(path) as file:
+            names = [name.decode() for name in file["station"][...]]
+            self.assertEqual(file["swept_elements"][...].ravel().tolist(), [6, 9])
+            shapes = file["modes/x_real"][...]
+            counts = (~numpy.isnan(shapes[:, 0, :])).sum(axis=1)
+            self.assertLess(counts[0], counts[1])
+            self.assertLessEqual(numpy.nanmax(numpy.abs(shapes)), 1 + 1e-12)  # round-off of the largest axis, 1
+            self.assertEqual(len(names), shapes.shape[2])
+            # A node of the beam has its number's name, and lies elsewhere with more elements.
+            along, fixed = file["station_along"][...], file["along"][...]
+            numpy.testing.assert_array_equal(numpy.isnan(along), numpy.isnan(shapes[:, 0, :]))
+            moved = numpy.isnan(fixed)
+            self.assertIn(True, moved)
+            numpy.testing.assert_allclose(along[:, ~moved], numpy.broadcast_to(fixed[~moved], along[:, ~moved].shape), atol=1e-9)  # m: round-off
+            self.assertEqual(file["bearings/left/stiffness"][1, 0, 0], found["speeds"][1]["bearings"]["left"]["stiffness"]["xx"])
+
+    def test_results_say_what_has_no_answer(self):
+        import h5py
+        (self.folder / "table.csv").write_text("speed [rpm],k_xx [N/m],k_yy [N/m]\n1000,1e6,1e6\n3000,1e6,1e6\n", encoding="utf-8")
+        self.write("table.yaml", """stiffness: {xx: "${k}", xy: "${q}", yx: "${q_yx}", yy: "${k_y}"}
+    damping: {xx: "${c}", yy: "${c}"}""", "file: table.csv")
+        for name in ("rotor.hdf5", "rotor.H5"):
+            path = self.folder / name
+            self.hersey("rotor", self.folder / "table.yaml", "--results", path, "--sweep", "speed=2000rpm:4000rpm:2", code=1)
+            with h5py.File(path) as file:
+                self.assertEqual(file["speed"].shape, (1,))
+                self.assertEqual(file.attrs["status"], "failed")
+                self.assertIn("4000 rpm", file.attrs["message"])
+            page = self.folder / "page.html"
+            done = self.hersey("report", path, "--output", page, code=2)
+            self.assertIn("rotor over its speeds", done.stderr)
+            self.assertFalse(page.exists())
 
     def test_order_of_bodies_does_not_matter(self):
         values = {"mass": "30 kg", "i_t": "0.17 kg.m^2", "i_p": "0.33 kg.m^2", "k_x": "1 MN/m", "k_y": "0.8 MN/m", "elements": 6}

@@ -61,7 +61,7 @@ std::string row_of(const std::vector<std::string>& cells, const char* element) {
 }
 
 std::string table_of(const std::vector<std::vector<std::string>>& lines, const std::string& heading = "") {
-  if (lines.size() < 2) return "";
+  if (lines.size() < 2) return heading.empty() ? "" : "<section class=\"wide\">" + heading + "</section>";
   std::string table =
       "<section class=\"wide\">" + heading + "<table><thead>" + row_of(lines[0], "th") + row_of(lines[1], "th");
   table += "</thead><tbody>";

@@ -33,8 +33,8 @@ constexpr std::size_t kMostSignals = 16;
 constexpr double kAcross = 1e-2;
 // Results are stored to seven digits.
 constexpr double kSameMotion = 1e-6;
-// Revolutions of what is on a shaft differ from its own by what its joints, couplings and deformations leave.
-constexpr double kSameShaft = 1e-2;
+// What is on a shaft rotates as far as it but for what its joints, couplings and deformations leave.
+constexpr double kSameShaft = kHalfTurn;
 // The cascade shows three orders of the fastest speed and a bit.
 constexpr double kHighestOrder = 3.3;
 constexpr std::size_t kPieces = 40;
@@ -234,12 +234,14 @@ class SignalCollector {
 
  private:
   [[nodiscard]] static bool rotate_alike(const Rotation& a, const Rotation& b) {
-    return std::abs(way(a.angle) - way(b.angle)) <= kSameShaft * way(b.angle);
+    return std::abs(way(a.angle) - way(b.angle)) <= kSameShaft;
   }
 
-  /// The shaft of the run, but for what rotates at another speed: its joint, else the body itself.
-  [[nodiscard]] std::size_t shaft_of(const Rotation& own) {
-    if (way(own.angle) < kFewestRevolutions * kOneRevolution || rotate_alike(own, main_)) return 0;
+  /// The shaft of the run, but for what rotates at another speed: its joint, else the body itself; unset where that
+  /// makes no run-up, so that it has no orders.
+  [[nodiscard]] std::optional<std::size_t> shaft_of(const Rotation& own) {
+    if (way(own.angle) <= kHalfTurn || rotate_alike(own, main_)) return 0;
+    if (way(own.angle) < kFewestRevolutions * kOneRevolution) return std::nullopt;
     const auto is_it = [&](const Rotation& other) { return rotate_alike(own, other); };
     auto found = std::ranges::find_if(joints_, is_it);
     if (found == joints_.end()) found = std::ranges::find_if(std::as_const(bodies_), is_it);
@@ -247,16 +249,16 @@ class SignalCollector {
     const auto known = std::ranges::find(run_up_.shafts, found->name, &RotatingShaft::name);
     if (known != run_up_.shafts.end()) return static_cast<std::size_t>(known - run_up_.shafts.begin());
     std::optional<RotatingShaft> shaft = run_up_of(*found, time_);
-    if (!shaft) return 0;
+    if (!shaft) return std::nullopt;
     run_up_.shafts.push_back(std::move(*shaft));
     return run_up_.shafts.size() - 1;
   }
 
   /// Tracks the columns of a dataset in which something moves across the shaft; bodies that move like what has been
   /// tracked before are left out.
-  void add_signals(const std::string& path, bool is_body, std::size_t shaft_index) {
-    if (!reader_.has(path)) return;
-    const RotatingShaft& shaft = run_up_.shafts[shaft_index];
+  void add_signals(const std::string& path, bool is_body, std::optional<std::size_t> shaft_index) {
+    if (!shaft_index || !reader_.has(path)) return;
+    const RotatingShaft& shaft = run_up_.shafts[*shaft_index];
     const Array array = reader_.read(path);
     std::vector<std::vector<double>> columns;
     double most = 0;
@@ -271,7 +273,7 @@ class SignalCollector {
       if (columns[i].size() != shaft.time.size() || !(range_of(columns[i]) > kAcross * most)) continue;
       OrderTracks tracks = track_orders(shaft.time, shaft.angle, columns[i], options);
       if (tracks.time.empty() || (is_body && is_known(tracks, run_up_))) continue;
-      run_up_.displacements.push_back({path, i, shaft_index, std::move(tracks)});
+      run_up_.displacements.push_back({path, i, *shaft_index, std::move(tracks)});
     }
   }
 

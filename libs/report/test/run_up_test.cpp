@@ -160,6 +160,18 @@ TEST_CASE("ShaftsOfOneSpeed_AreOne") {
   }
 }
 
+// 100 revolutions in 4 s: one of 10, and a shaft whose teeth are one fewer.
+TEST_CASE("ShaftOfFewRevolutions_HasNoOrders") {
+  const TemporaryDirectory directory;
+  const std::optional<RunUp> found = find_run_up(two_shafts(directory / "run.h5", 0.1, true));
+  REQUIRE(found);
+  CHECK(found->shafts.size() == 1);
+  for (const RunUpSignal& signal : found->displacements) CHECK(signal.path == "/bodies/first/position");
+  const std::optional<RunUp> near = find_run_up(two_shafts(directory / "run.h5", 0.992, true));
+  REQUIRE(near);
+  CHECK(near->shafts.size() == 2);
+}
+
 TEST_CASE("ConstantSpeed_OrFewRevolutions_AreNoRunUp") {
   CHECK(!find_run_up(Written({.first = 20, .last = 20}).reader));
   CHECK(!find_run_up(Written({.first = 20, .last = 23}).reader));

@@ -102,16 +102,26 @@ std::optional<double> flank(const std::vector<double>& x, const std::vector<doub
   }
 }
 
-/// Of the whirls that are not much faster than the shaft, else of the slowest one: fast bending that hardly moves the
-/// journals is damped little and not what a fluid drives.
+/// Of the whirls that are not much faster than the shaft: fast bending that hardly moves the journals is damped little
+/// and not what a fluid drives. Where all are faster, of the slowest one with the one that circles the other way, and
+/// of those at the same frequency, whose order is one of round-off.
 double least_log_decrement(const run::RotorState& rotor) {
-  constexpr double fastest = 1.25;  // of the speed
-  double least = std::numeric_limits<double>::infinity();
+  constexpr double fastest = 1.25;         // of the speed
+  constexpr double same_frequency = 1e-3;  // relative: a pair that cross-coupling parts by damping alone
+  double least = std::numeric_limits<double>::infinity(), last = 0;
+  int taken = 0;
+  bool are_backward = true, has_slow = false;
   for (const WhirlMode& mode : run::whirl_modes(rotor)) {
     if (mode.whirl == Whirl::none) continue;
     if (mode.whirl == Whirl::diverging) return mode.log_decrement;
-    if (mode.mode.s.imag() > fastest * rotor.speed && std::isfinite(least)) break;
-    least = std::min(least, mode.log_decrement);
+    const double frequency = mode.mode.s.imag();
+    const bool is_fast = frequency > fastest * rotor.speed;
+    const bool is_pair = taken >= 2 && !are_backward;
+    if (is_fast && (has_slow || is_pair) && frequency > (1 + same_frequency) * last) break;
+    least = std::min(least, mode.log_decrement), last = frequency;
+    ++taken;
+    are_backward = are_backward && mode.whirl == Whirl::backward;
+    has_slow = has_slow || !is_fast;
   }
   return least;
 }
@@ -124,7 +134,7 @@ std::vector<RotorAtSpeed> rotor_over_speeds(const ModelReader& read, const std::
   std::vector<std::optional<InputError>> refused(runs.size());
   TaskPool::shared().run(runs.size(), [&](std::size_t i) {
     RotorAtSpeed& at = rotor[i];
-    at.label = runs[i].label;
+    at.label = runs[i].label, at.values = runs[i].values;
     try {
       at.state = run::find_rotor_state(read(runs[i].overrides), stations);
     } catch (const InputError& error) {
@@ -160,7 +170,7 @@ std::vector<DampedCriticalSpeed> damped_critical_speeds(const std::vector<RotorA
     if (!at.state.solved()) continue;
     for (std::size_t k = 0; before != nullptr && k < at.modes.size(); ++k) {
       const auto same = std::find(before->tracks.begin(), before->tracks.end(), at.tracks[k]);
-      if (same == before->tracks.end() || at.modes[k].whirl == Whirl::none) continue;
+      if (same == before->tracks.end() || (at.modes[k].whirl == Whirl::none && !at.state.is_geared)) continue;
       const WhirlMode& from = before->modes[static_cast<std::size_t>(same - before->tracks.begin())];
       const double from_gap = from.mode.s.imag() - before->state.speed,
                    gap = at.modes[k].mode.s.imag() - at.state.speed;
@@ -184,14 +194,18 @@ std::vector<ResponsePeak> peaks_of(const std::vector<double>& x, const std::vect
     const double a = x[k] - x[k - 1], b = x[k + 1] - x[k];
     const double left = (inverse(k) - inverse(k - 1)) / a, right = (inverse(k + 1) - inverse(k)) / b;
     const double bend = (right - left) / (a + b), slope = (left * b + right * a) / (a + b);
+    ResponsePeak peak{.station = station};
     double shift = bend > 0 ? std::clamp(-slope / (2 * bend), -a / 2, b / 2) : 0;
     // Of a peak that is sharp beside the distance of the speeds the parabola falls below zero: its speed is the
     // nearest.
-    if (inverse(k) + shift * (slope + bend * shift) <= 0) shift = 0;
-    ResponsePeak peak{station, x[k] + shift, 1 / std::sqrt(inverse(k) + shift * (slope + bend * shift))};
+    if (inverse(k) + shift * (slope + bend * shift) <= 0) shift = 0, peak.is_resolved = false;
+    peak.speed = x[k] + shift, peak.amplitude = 1 / std::sqrt(inverse(k) + shift * (slope + bend * shift));
+    peak.before = x[k - 1], peak.after = x[k + 1];
     const double level = peak.amplitude / std::sqrt(2);
     const auto low = flank(x, y, k, -1, level), high = flank(x, y, k, 1, level);
-    if (low && high) peak.amplification = peak.speed / (*high - *low);  // (rotors.13)
+    // Three points of which the highest is alone above the level say little of the curve between them.
+    if (y[k - 1] < level || y[k + 1] < level) peak.is_resolved = false;
+    if (low && high && peak.is_resolved) peak.amplification = peak.speed / (*high - *low);  // (rotors.13)
     peaks.push_back(peak);
   }
   return peaks;
@@ -199,15 +213,15 @@ std::vector<ResponsePeak> peaks_of(const std::vector<double>& x, const std::vect
 
 std::vector<ResponsePeak> response_peaks(const std::vector<RotorAtSpeed>& rotor) {
   if (!is_over_speeds(rotor)) return {};
-  std::vector<double> speeds;
-  std::vector<const run::UnbalanceResponse*> responses;
-  for (const RotorAtSpeed& at : rotor)
-    if (at.response) speeds.push_back(at.state.speed), responses.push_back(&*at.response);
+  const auto first = std::find_if(rotor.begin(), rotor.end(), [](const auto& at) { return at.state.solved(); });
   std::vector<ResponsePeak> all;
-  const std::size_t stations = responses.empty() ? 0 : responses.front()->stations.size();
-  for (std::size_t s = 0; s < stations; ++s) {
-    std::vector<double> amplitudes;
-    for (const run::UnbalanceResponse* response : responses) amplitudes.push_back(response->stations[s].major());
+  for (std::size_t s = 0; first != rotor.end() && s < first->state.stations.size(); ++s) {
+    std::vector<double> speeds, amplitudes;
+    for (const RotorAtSpeed& at : rotor) {
+      const auto place = at.state.places.find(first->state.stations[s].name);
+      if (!at.response || place == at.state.places.end()) continue;
+      speeds.push_back(at.state.speed), amplitudes.push_back(at.response->stations[place->second].major());
+    }
     for (const ResponsePeak& peak : peaks_of(speeds, amplitudes, s)) all.push_back(peak);
   }
   return all;

@@ -47,6 +47,10 @@ parameters. Others are compared under their names, in every table and figure: th
 beside. `--names before,after` gives them names of your own. The page lays up to eight runs over each other over the last cycle (over the whole
 run where there is none), with what they differ by and a table of changes. A page is never written over what it is made from.
 
+[`hersey rotor --results FILE.h5`](rotors.md) writes another kind of file, whose rows are speeds in place of instants: its root has the
+attribute `kind`, `rotor over its speeds`. `status` is `failed` where a speed has no answer; `message` says which and why, all others have their row.
+`hersey report` takes files of runs only.
+
 The section *Spectra and orders* of a run's page shows the amplitudes of any of its series: over frequency, under Hann's window, of the last
 cycle or the second half, or of the whole run; or over the orders of what turns (the crank, else a hinge, else a body) over whole turns,
 where the lines of what repeats are exact. A sine of amplitude 1 has a peak of 1. Where the speed changes by more than a fifth there are a waterfall

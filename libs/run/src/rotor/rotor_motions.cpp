@@ -37,13 +37,14 @@ double reach_of(const RotorState& rotor) {
   return high > low ? high - low : 1;
 }
 
-/// Sense in which the axis circles in a motion of the free coordinates.
-Whirl whirl_of(const std::vector<Orbit>& orbits, int sense) {
+/// Sense in which the axis circles in a motion of the free coordinates, beside that in which its shaft rotates.
+Whirl whirl_of(const RotorState& rotor, const std::vector<Orbit>& orbits) {
   double forward = 0, backward = 0, size = 0;
   for (const Orbit& orbit : orbits) size = std::max(size, orbit.major());
-  for (const Orbit& orbit : orbits) {
+  for (std::size_t s = 0; s < orbits.size(); ++s) {
+    const Orbit& orbit = orbits[s];
     if (orbit.major() < 1e-3 * size) continue;  // near a node the sense means nothing
-    const double ratio = orbit.minor(sense) / orbit.major();
+    const double ratio = orbit.minor(rotor.stations[s].sense) / orbit.major();
     forward = std::max(forward, ratio), backward = std::max(backward, -ratio);
   }
   if (forward < kPlanar && backward < kPlanar) return Whirl::planar;
@@ -92,8 +93,9 @@ void part_by_whirl(const RotorState& rotor, std::vector<SmallMotion>& motions) {
     for (Index k = 0; k < count; ++k) {
       Y.col(k) = motions[first + static_cast<std::size_t>(k)].y;
       for (Index p = 0; p < points; ++p) {
-        const Orbit orbit = orbit_of(rotor.stations[static_cast<std::size_t>(p)].across, Y.col(k));
-        forward(p, k) = orbit.forward(rotor.sense), backward(p, k) = orbit.backward(rotor.sense);
+        const RotorStation& station = rotor.stations[static_cast<std::size_t>(p)];
+        const Orbit orbit = orbit_of(station.across, Y.col(k));
+        forward(p, k) = orbit.forward(station.sense), backward(p, k) = orbit.backward(station.sense);
       }
     }
     const MatrixXcd of_forward = forward.adjoint() * forward, of_both = of_forward + backward.adjoint() * backward;
@@ -139,7 +141,7 @@ std::vector<WhirlMode> whirl_modes(const RotorState& rotor) {
     const double zeta = mode.damping_ratio;
     found.log_decrement = 2 * std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta);
     found.orbits = orbits_of(rotor, found.mode.shape);
-    if (moves) found.whirl = whirl_of(found.orbits, rotor.sense);
+    if (moves) found.whirl = whirl_of(rotor, found.orbits);
     if (!oscillates(mode)) {
       found.whirl = Whirl::diverging;
       found.log_decrement = -std::numeric_limits<double>::infinity();
@@ -158,7 +160,7 @@ std::vector<WhirlMode> whirl_modes(const RotorState& rotor) {
 RotorState with_cross_coupling(RotorState rotor, const CrossCoupling& coupling) {
   HERSEY_REQUIRE(coupling.station < rotor.stations.size(), "the station exists");
   const MatrixXd& across = rotor.stations[coupling.station].across;
-  const double Q = rotor.sense * coupling.Q;
+  const double Q = rotor.stations[coupling.station].sense * coupling.Q;
   // A shaft displaced along x is pushed along y, one displaced along y against x: on in its own sense.
   rotor.K -= across.row(1).transpose() * (Q * across.row(0)) - across.row(0).transpose() * (Q * across.row(1));
   return rotor;
@@ -213,7 +215,7 @@ std::vector<CriticalSpeed> undamped_critical_speeds(const RotorState& rotor, dou
   part_by_whirl(rotor, motions);
   std::vector<CriticalSpeed> found;
   for (const SmallMotion& motion : motions)
-    found.push_back({motion.value.real(), whirl_of(orbits_of(rotor, motion.y), rotor.sense)});
+    found.push_back({motion.value.real(), whirl_of(rotor, orbits_of(rotor, motion.y))});
   return found;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hersey/core/input_error.h"
+#include "hersey/mbd/gear_mesh.h"
 #include "hersey/mbd/unbalance.h"
 #include "hersey/model/build.h"
 #include "hersey/run/rotor.h"
@@ -32,12 +33,14 @@ constexpr double kAlike = 1e-5;         // of the forces of a row: how much thos
 constexpr double kSpinOn = 0.7;         // rad, of no symmetry that a machine is likely to have
 constexpr double kSameSpeed = 1e-9;     // relative
 constexpr double kParallel = 1e-6;      // sine of the angle between axes that are one
+constexpr double kTeethPart = 1e-9;     // m, of teeth: below the roughness of any flank, above round-off
 constexpr double kAlikeMotions = 1e-4;  // relative difference of displacements
 
 /// How a body spins: about a line that it carries along.
 struct BodySpin {
   Vector3 omega = Vector3::Zero();   ///< in the body's axes [rad/s]; zero: it does not spin
   Vector3 centre = Vector3::Zero();  ///< point of the line nearest to the body's origin, in the body's axes [m]
+  bool is_driven = false;            ///< a drive rotates it, not the teeth of wheels
 };
 
 /// Velocities that drives prescribe, all others zero.
@@ -59,11 +62,13 @@ std::vector<BodySpin> spins_of(const model::Machine& machine, const solver::Stat
   mbd::Mechanism& mechanism = *machine.mechanism;
   solver::State moving = start;
   moving.v = driven_velocities(mechanism, start);
-  roll_wheels(machine, moving);
+  solver::State rolling = moving;
+  roll_wheels(machine, rolling);
   std::vector<BodySpin> spins;
   for (const mbd::FrameId frame : mechanism.spec().body_frames) {
-    const mbd::FrameMotion motion = mechanism.frame_motion(moving, frame);
+    const mbd::FrameMotion motion = mechanism.frame_motion(rolling, frame);
     BodySpin spin;
+    spin.is_driven = !mechanism.frame_motion(moving, frame).omega.isZero(0);
     if (const double speed = motion.omega.norm(); speed > 0) {
       const Matrix3 to_body = motion.X_WF.R.transpose();
       spin.omega = to_body * motion.omega;
@@ -293,6 +298,8 @@ class RotorFinder {
     rotor.M = linear_.M, rotor.C = linear_.C, rotor.K = linear_.K;
     rotor.axis = axis_.axis, rotor.sense = axis_.sense;
     rotor.x_name = axis_.names[0], rotor.y_name = axis_.names[1];
+    rotor.is_geared = std::ranges::any_of(
+        model.forces, [](const model::Force& force) { return std::holds_alternative<model::GearMesh>(force.data); });
     rotor.unbalance.setZero(linear_.Z.cols());
   }
 
@@ -317,10 +324,28 @@ class RotorFinder {
     return {rotations * dynamic.solve(rotations.transpose()), displacements * dynamic.solve(displacements.transpose())};
   }
 
+  /// Gear meshes whose flanks do not press on each other in the steady motion.
+  void warn_of_parted_teeth() {
+    mbd::Mechanism& mechanism = spinning_.mechanism();
+    const auto& forces = mechanism.spec().forces;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const auto* mesh = dynamic_cast<const mbd::GearMesh*>(forces[i].force.get());
+      if (mesh == nullptr) continue;
+      const mbd::GearMesh::Load load = mesh->load(mechanism.relative_motion(state_, {static_cast<int>(i)}));
+      if (!(load.normal < 0 && load.deflection < -kTeethPart)) continue;
+      rotor_.warning += fmt::format(
+          "{}gear mesh {}: its teeth would part, at a mesh force of {:.4g} N, and the mesh pulls there instead; a "
+          "torque "
+          "of the other sign wants another `torque_on_first`",
+          rotor_.warning.empty() ? "" : "; ", forces[i].name, load.normal);
+    }
+  }
+
   void add_unbalances(const std::vector<model::Unbalance>& unbalances) {
     for (const model::Unbalance& unbalance : unbalances) add_unbalance(unbalance);
     rotor_.unbalances = static_cast<int>(unbalances.size());
-    rotor_.unbalance *= std::exp(std::complex<double>(0, -angle_of_mark()));
+    if (unbalances.empty()) return;
+    rotor_.unbalance *= std::exp(std::complex<double>(0, -angle_of_mark(unbalances.front())));
   }
 
  private:
@@ -367,17 +392,34 @@ class RotorFinder {
     return frames_.poses[static_cast<std::size_t>(spec.body_frames[body].index)];
   }
 
-  /// Angle in the sense of rotation from the direction x to the x-axis of the first body of the shaft.
-  [[nodiscard]] double angle_of_mark() const {
-    const mbd::MechanismSpec& spec = spinning_.machine().mechanism->spec();
-    for (std::size_t b = 1; b < spec.bodies.size(); ++b) {
-      if (!spinning_.does_spin(spec.body_frames[b])) continue;
-      const Pose& X = frames_.poses[static_cast<std::size_t>(spec.body_frames[b].index)];
-      const Eigen::Vector2d mark = axis_.across * X.R.col(across_spin(spinning_.spins()[b].omega));
-      return std::atan2(axis_.sense * mark.y(), mark.x());
-    }
-    return 0;
+  /// True if two bodies rotate with one another: about one line, at one speed.
+  [[nodiscard]] bool are_of_one_shaft(std::size_t a, std::size_t b) const {
+    const auto& frames = spinning_.machine().mechanism->spec().body_frames;
+    const auto& spins = spinning_.spins();
+    const Pose &X = frames_.poses[static_cast<std::size_t>(frames[a].index)],
+               &Y = frames_.poses[static_cast<std::size_t>(frames[b].index)];
+    const Vector3 omega = X.R * spins[a].omega, apart = Y * spins[b].centre - X * spins[a].centre;
+    return (omega - Y.R * spins[b].omega).norm() <= kParallel * omega.norm() &&
+           omega.normalized().cross(apart).norm() <= kParallel * (1 + apart.norm());
   }
+
+  /// Angle in the sense of rotation from the direction x to the x-axis of the first body of the shaft of `unbalance`.
+  [[nodiscard]] double angle_of_mark(const model::Unbalance& unbalance) const {
+    const mbd::MechanismSpec& spec = spinning_.machine().mechanism->spec();
+    const auto carrier = static_cast<std::size_t>(body_of(frame_called(name_in_model(unbalance))));
+    std::size_t first = 1;
+    while (first < carrier && !are_of_one_shaft(carrier, first)) ++first;
+    const Pose& X = frames_.poses[static_cast<std::size_t>(spec.body_frames[first].index)];
+    const Vector3& spin = spinning_.spins()[first].omega;
+    const Eigen::Vector2d mark = axis_.across * X.R.col(across_spin(spin));
+    return std::atan2(sense_of(X.R * spin) * mark.y(), mark.x());
+  }
+
+  [[nodiscard]] static std::string name_in_model(const model::Unbalance& unbalance) {
+    return unbalance.to.body + (unbalance.to.frame.empty() ? "" : "." + unbalance.to.frame);
+  }
+
+  [[nodiscard]] int sense_of(const Vector3& omega) const { return axis_.axis.dot(omega) < 0 ? -1 : 1; }
 
   /// Axis of a body that is x where the body spins about its z-axis, else the next one after that about which it does.
   [[nodiscard]] static Index across_spin(const Vector3& spin) {
@@ -386,14 +428,17 @@ class RotorFinder {
     return (along + 1) % 3;
   }
 
-  /// Of the fastest shaft.
+  /// Of the fastest shaft; of two alike that which is driven.
   [[nodiscard]] AcrossAxis axis_of() {
     const mbd::MechanismSpec& spec = spinning_.mechanism().spec();
     Vector3 fastest = Vector3::Zero();
+    bool is_driven = false;
     for (std::size_t b = 1; b < spec.bodies.size(); ++b) {
-      const Vector3 omega =
-          frames_.poses[static_cast<std::size_t>(spec.body_frames[b].index)].R * spinning_.spins()[b].omega;
-      if (omega.norm() > (1 + kSameSpeed) * fastest.norm()) fastest = omega;
+      const BodySpin& spin = spinning_.spins()[b];
+      const Vector3 omega = frames_.poses[static_cast<std::size_t>(spec.body_frames[b].index)].R * spin.omega;
+      const bool is_faster = omega.norm() > (1 + kSameSpeed) * fastest.norm();
+      const bool is_as_fast = omega.norm() >= (1 - kSameSpeed) * fastest.norm();
+      if (is_faster || (is_as_fast && spin.is_driven && !is_driven)) fastest = omega, is_driven = spin.is_driven;
     }
     rotor_.speed = fastest.norm();
     return AcrossAxis(fastest);
@@ -427,7 +472,7 @@ class RotorFinder {
     MatrixXd along_and_about(2, displacement.cols());
     along_and_about << axis_.axis.transpose() * displacement,
         axis_.axis.transpose() * frames_.twists[frame].topRows<3>();
-    rotor_.stations.push_back({name, along, axis_.across * displacement, along_and_about});
+    rotor_.stations.push_back({name, along, sense_of(X.R * spin.omega), axis_.across * displacement, along_and_about});
     bodies_[name] = body_of(frame);
     return rotor_.places[name] = rotor_.stations.size() - 1;
   }
@@ -480,7 +525,7 @@ class RotorFinder {
 
   // (rotors.4) of a shaft that spins steadily, as an amplitude of exp(i omega t).
   void add_unbalance(const model::Unbalance& unbalance) {
-    const std::string name = unbalance.to.body + (unbalance.to.frame.empty() ? "" : "." + unbalance.to.frame);
+    const std::string name = name_in_model(unbalance);
     const std::size_t frame = frame_called(name);
     add_station(frame, name);
     const Pose& X = frames_.poses[frame];
@@ -530,6 +575,7 @@ RotorState find_rotor_state(const model::Model& model, const std::vector<std::st
   RotorFinder finder(balanced, spinning, rotor);
   finder.add_all(stations);
   finder.add_unbalances(unbalances);
+  finder.warn_of_parted_teeth();
   spinning.spin_on();
   RotorState later;
   if (!are_alike(finder.mobility(), RotorFinder(balanced, spinning, later).mobility()))

@@ -19,7 +19,7 @@ struct CurvePage {
   /// A further table with a heading.
   struct Table {
     std::string title, note;
-    std::vector<std::vector<std::string>> lines;  ///< names, units, then rows
+    std::vector<std::vector<std::string>> lines;  ///< names, units, then rows; empty: the title says why there is none
   };
   std::vector<Table> tables;
 };

@@ -19,6 +19,7 @@ namespace hersey::run {
 struct RotorStation {
   std::string name;  ///< of a body or a frame
   double along = 0;  ///< position along the axis [m]
+  int sense = 1;     ///< of its own shaft, 1: rotates from x to y, -1: from y to x
   /// Displacement across the axis by the free coordinates, shape (2, free).
   Eigen::MatrixXd across;
   /// Displacement along the axis and rotation about it likewise, shape (2, free).
@@ -44,17 +45,19 @@ struct RotorBearing {
 /// in coordinates that do not rotate. The directions across the axis are x and y of the ground where it is the z-axis
 /// (else the next two axes in cyclic order).
 struct [[nodiscard]] RotorState : Outcome {
-  double speed = 0;  ///< of the shaft, its magnitude [rad/s]
-  int sense = 1;     ///< 1: rotates from x to y, -1: from y to x
+  double speed = 0;        ///< of the fastest shaft, its magnitude [rad/s]; of two alike that which a drive rotates
+  int sense = 1;           ///< of the same, 1: rotates from x to y, -1: from y to x
+  bool is_geared = false;  ///< teeth couple torsion with motions of the axis
   Vector3 axis = Vector3::UnitZ();
   std::string x_name = "x", y_name = "y";  ///< directions across the axis
   Eigen::MatrixXd M, C, K;                 ///< shape (free, free)
   std::vector<RotorStation> stations;      ///< along the axis; those named come first
   std::vector<RotorBearing> bearings;
   /// f of all unbalances of the model, shape (free); zero without any. At the time 0 the x-axis of the first body of
-  /// the shaft, a mark at phase zero, passes the direction x.
+  /// the shaft with the unbalance, a mark at phase zero, passes the direction x.
   Eigen::VectorXcd unbalance;
   int unbalances = 0;
+  std::string warning;                        ///< gear meshes that pull where teeth would part; empty without
   std::map<std::string, std::size_t> places;  ///< index of the station of each name; two frames may have one
 };
 

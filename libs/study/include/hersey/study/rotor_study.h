@@ -15,7 +15,8 @@ namespace hersey::study {
 
 /// A rotor at one speed.
 struct RotorAtSpeed {
-  std::string label;  ///< of the run, "speed = 3000 rpm"
+  std::string label;                      ///< of the run, "speed = 3000 rpm"
+  std::vector<model::StudyValue> values;  ///< of the run
   run::RotorState state;
   std::vector<run::WhirlMode> modes;
   std::vector<int> tracks;                         ///< of each mode: the same number at another speed is the same mode
@@ -47,8 +48,13 @@ struct ResponsePeak {
   double speed = 0;      ///< [rad/s]
   double amplitude = 0;  ///< half of the longest diameter of the orbit [m]
   /// Amplification factor N_c/(N_2 - N_1) by the speeds at which the amplitude is 0.707 of the peak (rotors.13); not a
-  /// number where one of them is outside the range of speeds or hidden by a higher peak.
+  /// number where one of them is outside the range of speeds or hidden by a higher peak, or where the speeds are too
+  /// far apart.
   double amplification = std::numeric_limits<double>::quiet_NaN();
+  double before = 0, after = 0;  ///< neighbouring speeds of the sweep [rad/s]
+  /// False: between two neighbouring speeds the amplitude falls below 0.707 of the peak; the true peak lies somewhere
+  /// between these and may be far higher and sharper.
+  bool is_resolved = true;
 };
 /// Returns the peaks at each station; none where two speeds are equal.
 [[nodiscard]] std::vector<ResponsePeak> response_peaks(const std::vector<RotorAtSpeed>& rotor);
