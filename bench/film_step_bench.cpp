@@ -23,7 +23,7 @@ Iteration warm_iteration(const BenchBearing& b, FilmSolver solver, const std::ve
   const int n = b.model.grid.size();
   Eigen::VectorXd u = Eigen::VectorXd::Zero(n), du;
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
-  const Eigen::MatrixXd rigid(n, 0);
+  const SurfaceShapes rigid = SurfaceShapes::none(n);
   CondensedFilm condensed;
   const FilmHistory history{1e-4, Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n)};
   if (!solve_film(reynolds, b.motion, history, {.solver = solver}, u).solved()) std::abort();
@@ -33,7 +33,7 @@ Iteration warm_iteration(const BenchBearing& b, FilmSolver solver, const std::ve
     Iteration now;
     now.linearise = shortest(1, [&] { reynolds.linearise(b.motion, history, u); });
     now.condense = shortest(1, [&] { reynolds.condense(directions, rigid, condensed); });
-    now.follow = shortest(1, [&] { reynolds.follow(still, du); });
+    now.follow = shortest(1, [&] { reynolds.follow(still, rigid, du); });
     if (now.total() < least) least = now.total(), best = now;
   }
   return best;
