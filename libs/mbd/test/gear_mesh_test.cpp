@@ -211,8 +211,10 @@ TEST_CASE("GearMesh_StoresOrLosesThePowerThatItTakes") {
 
 // The second wheel called the first: the other hand, the same sign of the torque (it is the driven one's).
 TEST_CASE("GearMesh_DoesNotDependOnTheOrderOfItsWheels") {
-  const GearMesh::Data data = data_of(1, 0.25);
+  GearMesh::Data data = data_of(1, 0.25);
+  data.error = 3e-6, data.error_phase = 0.7;
   GearMesh::Data other = data;
+  other.error_phase = -data.error_phase;  // teeth of the other wheel go the other way
   std::swap(other.teeth[0], other.teeth[1]), std::swap(other.base_radius[0], other.base_radius[1]);
   other.base_helix = -data.base_helix;
   GearMesh mesh(data), exchanged(other);
@@ -228,7 +230,8 @@ TEST_CASE("GearMesh_DoesNotDependOnTheOrderOfItsWheels") {
 
 // Seen in a mirror that holds the axes: the other hand, torque and sense of rotation.
 TEST_CASE("GearMesh_HasAMirrorImage") {
-  const GearMesh::Data data = data_of(1, 0.25);
+  GearMesh::Data data = data_of(1, 0.25);
+  data.error = 3e-6, data.error_phase = 0.7;
   GearMesh::Data other = data;
   other.side = -1, other.base_helix = -data.base_helix;
   GearMesh mesh(data), mirrored(other);
@@ -251,7 +254,8 @@ TEST_CASE("GearMesh_HasAMirrorImage") {
 }
 
 TEST_CASE("GearMesh_SaysWhatItCannotDo") {
-  const GearMesh::Data data = data_of(1, 0);
+  GearMesh::Data data = data_of(1, 0);
+  data.reach = 1.1 * sum_of_radii(data);
   GearMesh mesh(data);
   const Vector3 centre(1.05 * sum_of_radii(data), 0, 0);
   mesh.mesh_here(between(Pose{}, wheel_at(centre, 0)));
@@ -261,6 +265,8 @@ TEST_CASE("GearMesh_SaysWhatItCannotDo") {
     return mesh.domain_error();
   };
   CHECK(fault(between(Pose{}, wheel_at(0.9 * centre, 0))).find("sum of their base radii") != std::string::npos);
+  CHECK(fault(between(Pose{}, wheel_at(1.06 * centre, 0))).find("their teeth reach each other up to") !=
+        std::string::npos);
   CHECK(fault(between(Pose{}, wheel_at(centre, 0.4 * 2 * kPi / data.teeth[1]))).find("a quarter of their pitch") !=
         std::string::npos);
   RelativeMotion crossed = between(Pose{}, wheel_at(centre, 0));
