@@ -145,11 +145,11 @@ double GearMesh::stored_energy(const RelativeMotion& motion) const {
 }
 
 double GearMesh::lost_power(const RelativeMotion& motion) const {
-  const double rate = approach(motion);
+  const double rate = deflection(motion).along.d.dot(motion.V_AB_A);
   return data_.damping * rate * rate;
 }
 
-double GearMesh::approach(const RelativeMotion& motion) const { return deflection(motion).along.d.dot(motion.V_AB_A); }
+double GearMesh::approach(const RelativeMotion& motion) const { return geometry(motion).along.d.dot(motion.V_AB_A); }
 
 GearMesh::Load GearMesh::load(const RelativeMotion& motion) const {
   const Deflection found = deflection(motion);

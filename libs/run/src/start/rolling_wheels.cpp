@@ -58,16 +58,13 @@ struct Wheels {
 };
 
 /// Velocity components of one joint that rotate bodies: one, or three of a rotation in space; from ground outwards.
-/// Those that deform a body or that a spring holds are left out: nothing rotates on by them.
+/// Those that a spring holds are left out: nothing rotates on by them.
 std::vector<std::vector<Index>> rotations_of(const mbd::Mechanism& mechanism) {
-  std::set<Index> held;
-  for (const Index k : mechanism.elastic_coordinates()) held.insert(k);
-  for (const Index k : mechanism.sprung_coordinates()) held.insert(k);
+  const std::vector<Index> held = mechanism.sprung_coordinates();
   std::vector<std::vector<Index>> rotations;
   for (const Index k : mechanism.revolutions())
-    if (!held.contains(k)) rotations.push_back({k});
-  for (const Index k : mechanism.rotations_in_space())
-    if (!held.contains(k)) rotations.push_back({k, k + 1, k + 2});
+    if (std::find(held.begin(), held.end(), k) == held.end()) rotations.push_back({k});
+  for (const Index k : mechanism.rotations_in_space()) rotations.push_back({k, k + 1, k + 2});
   std::sort(rotations.begin(), rotations.end());
   return rotations;
 }
@@ -97,9 +94,12 @@ struct Rolling {
   std::vector<Index> columns;  ///< of the joint by which it rotates; empty: no joint lets it
   VectorXd rotation;           ///< velocities of the joint at which the wheel rotates at 1 rad/s
   double approach = 0;         ///< of the flanks then [m/s]
+  bool deforms = false;        ///< only a node of a flexible shaft rotates then
   bool is_driven = false;      ///< constraints prescribe the rotation
 
-  [[nodiscard]] bool can_roll() const { return !columns.empty() && !is_driven; }
+  /// In a run in time the nodes of flexible shafts may move by coordinates of their own, and a joint with them by none.
+  [[nodiscard]] bool may_roll() const { return !columns.empty() && !is_driven; }
+  [[nodiscard]] bool can_roll() const { return may_roll() && !deforms; }
 };
 
 /// True unless the constraints let the columns move by `rotation` while all others follow.
@@ -120,20 +120,26 @@ bool do_constraints_prescribe(mbd::Mechanism& mechanism, const solver::State& st
 /// By the first joint from ground that can, one about one axis before one in space, as housings have them on their
 /// mounts; driven if any that can is.
 Rolling rolling_of(const Wheels& wheels, int wheel, const solver::State& state) {
-  Rolling found;
+  const std::vector<Index> elastic = wheels.mechanism.elastic_coordinates();
   const double whole = std::abs(wheels.radius(wheel) * std::cos(wheels.mesh.mesh->data().base_helix));
+  const auto rank = [](const Rolling& one) { return std::pair(one.deforms, one.columns.size()); };
+  Rolling best;
+  bool is_driven = false;
   for (const std::vector<Index>& columns : rotations_of(wheels.mechanism)) {
-    const VectorXd rotation = rotation_of_wheel(wheels, wheel, columns, state);
-    if (rotation.size() == 0) continue;
+    Rolling one;
+    one.columns = columns;
+    one.rotation = rotation_of_wheel(wheels, wheel, columns, state);
+    if (one.rotation.size() == 0) continue;
     solver::State rotating = state;
-    rotating.v = rotation;
-    const double approach = wheels.approach(rotating);
-    if (std::abs(approach) < 0.5 * whole) continue;  // both wheels rotate with it
-    if (do_constraints_prescribe(wheels.mechanism, state, columns, rotation)) found.is_driven = true;
-    if (!found.columns.empty() && columns.size() >= found.columns.size()) continue;
-    found.columns = columns, found.rotation = rotation, found.approach = approach;
+    rotating.v = one.rotation;
+    one.approach = wheels.approach(rotating);
+    if (std::abs(one.approach) < 0.5 * whole) continue;  // both wheels rotate with it
+    one.deforms = std::find(elastic.begin(), elastic.end(), columns.front()) != elastic.end();
+    if (!one.deforms && do_constraints_prescribe(wheels.mechanism, state, columns, one.rotation)) is_driven = true;
+    if (best.columns.empty() || rank(one) < rank(best)) best = std::move(one);
   }
-  return found;
+  best.is_driven = is_driven;
+  return best;
 }
 
 /// A mesh and how its wheels may roll.
@@ -141,8 +147,9 @@ struct RollingMesh {
   RollingMesh(const model::BuiltMesh& mesh, mbd::Mechanism& mechanism, const solver::State& state)
       : wheels{mesh, mechanism}, rolling{rolling_of(wheels, 0, state), rolling_of(wheels, 1, state)} {}
 
-  [[nodiscard]] bool misses(const solver::State& state) const {
-    return std::abs(wheels.approach(state)) > kInRatio * wheels.rolling_speed(state);
+  [[nodiscard]] bool may_roll() const { return rolling[0].may_roll() || rolling[1].may_roll(); }
+  [[nodiscard]] bool misses(const solver::State& state, double share) const {
+    return std::abs(wheels.approach(state)) > share * wheels.rolling_speed(state);
   }
 
   Wheels wheels;
@@ -184,7 +191,7 @@ class Roller {
   void roll(const RollingMesh& mesh, const Rolling& rolling) {
     settle(rolling);
     const double approach = mesh.wheels.approach(state_);
-    if (!mesh.misses(state_) || std::abs(approach) > largest_ * mesh.wheels.rolling_speed(state_)) return;
+    if (!mesh.misses(state_, kInRatio) || mesh.misses(state_, largest_)) return;
     state_.v -= approach / rolling.approach * rolling.rotation;
     changed_.insert(changed_.end(), rolling.columns.begin(), rolling.columns.end());
   }
@@ -209,14 +216,18 @@ void advise_speeds(const RollingMesh& mesh, const solver::State& state, Fault& f
   std::vector<std::string> speeds, rates;
   for (const int wheel : {1, 0}) {
     const Rolling& rolling = mesh.rolling[static_cast<std::size_t>(wheel)];
-    if (!rolling.can_roll()) continue;
+    if (!rolling.may_roll()) continue;
     speeds.push_back(fmt::format("{:.6g} rpm of the {}", speed_to_roll(mesh, wheel, state),
                                  kWheelNames[static_cast<std::size_t>(wheel)]));
     const Index column = rolling.columns.front();
     const std::string name = mesh.wheels.mechanism.name_of_row(column);
     const double rate = state.v[column] - mesh.wheels.approach(state) / rolling.approach * rolling.rotation[column];
-    rates.push_back(rolling.columns.size() == 1 ? fmt::format("{} {:.6g} rpm", name, rate / kRpm)
-                                                : fmt::format("{} this speed", name.substr(0, name.find(','))));
+    if (rolling.deforms)
+      rates.emplace_back("the joint of the shaft this speed");
+    else if (rolling.columns.size() == 1)
+      rates.push_back(fmt::format("{} {:.6g} rpm", name, rate / kRpm));
+    else
+      rates.push_back(name.substr(0, name.find(',')) + " this speed");
   }
   fault.expected = fmt::format("speeds at which they roll: {}", fmt::join(speeds, ", or "));
   fault.suggestion = fmt::format(
@@ -252,7 +263,7 @@ void require_rolling_wheels(const model::Model& model, const model::Machine& mac
   std::vector<Fault> faults;
   for (const model::BuiltMesh& built : machine.gear_meshes) {
     const RollingMesh mesh(built, *machine.mechanism, state);
-    if (!mesh.misses(state)) continue;
+    if (!mesh.misses(state, mesh.may_roll() ? kRoundedSpeed : kInRatio)) continue;
     Fault fault;
     fault.path = "forces." + built.name;
     fault.position = model.position_of(fault.path);
@@ -260,7 +271,7 @@ void require_rolling_wheels(const model::Model& model, const model::Machine& mac
     fault.found = fmt::format(
         "wheels that do not roll in their ratio at the start: the first at {:.6g} rpm, the second at {:.6g} rpm",
         shown(0), shown(1));
-    if (mesh.rolling[0].can_roll() || mesh.rolling[1].can_roll())
+    if (mesh.may_roll())
       advise_speeds(mesh, state, fault);
     else
       advise_freedom(mesh, state, fault);
