@@ -381,6 +381,15 @@ simulation: {analysis: steady}
         self.assertAlmostEqual(other / (-3000 * RPM * Z1 / Z2), 1, delta=1e-9)  # round-off
         self.assertAlmostEqual(far / other, -2, delta=1e-9)  # round-off
 
+    def test_wheels_roll_in_the_ratio_of_their_teeth_whatever_the_error(self):
+        text = self.rolling_pair(DRIVE + "simulation: {duration: 1 ms, step: 0.02 ms, spectral_radius: 0.9}\n")
+        text = text.replace('damping: "${c}"', 'damping: "${c}", transmission_error: {amplitude: 3 um, phase: 90 deg}')
+        done = self.hersey("run", self.write(text), "--output", self.folder / "out", "--force")
+        self.assertNotIn("at the start", done.stderr)  # the error's rate is none of the wheels
+        with h5py.File(next((self.folder / "out").rglob("*.h5"))) as file:
+            other = float(np.ravel(file["joints/other/rates"][0])[0])
+        self.assertAlmostEqual(other / (-3000 * RPM * Z1 / Z2), 1, delta=1e-12)  # round-off
+
     def test_faults_of_a_mesh_name_its_line(self):
         steady = DRIVE + "simulation: {analysis: steady}\n"
         found = self.refused(self.pair(steady, distance=0.4))
