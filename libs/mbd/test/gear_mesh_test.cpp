@@ -211,10 +211,8 @@ TEST_CASE("GearMesh_StoresOrLosesThePowerThatItTakes") {
 
 // The second wheel called the first: the other hand, the same sign of the torque (it is the driven one's).
 TEST_CASE("GearMesh_DoesNotDependOnTheOrderOfItsWheels") {
-  GearMesh::Data data = data_of(1, 0.25);
-  data.error = 3e-6, data.error_phase = 0.7;
+  const GearMesh::Data data = data_of(1, 0.25);
   GearMesh::Data other = data;
-  other.error_phase = -data.error_phase;  // teeth of the other wheel go the other way
   std::swap(other.teeth[0], other.teeth[1]), std::swap(other.base_radius[0], other.base_radius[1]);
   other.base_helix = -data.base_helix;
   GearMesh mesh(data), exchanged(other);
@@ -226,6 +224,30 @@ TEST_CASE("GearMesh_DoesNotDependOnTheOrderOfItsWheels") {
   mesh.mesh_here(start), exchanged.mesh_here(start_back);
   const Vector6 W = wrench(mesh, motion), on_first = wrench(exchanged, back);
   CHECK((force_transform(motion.X_AB) * on_first + W).norm() < 1e-9 * W.norm());  // digits that deflections lose
+}
+
+// The teeth of wheels that roll come once, whichever wheel counts them; the other one counts them the other way.
+TEST_CASE("TransmissionError_HasTheOppositePhaseWithItsWheelsExchanged") {
+  for (const int side : {1, -1}) {
+    GearMesh::Data data = data_of(side, 0);
+    data.error = 3e-6, data.error_phase = 0.7;
+    GearMesh::Data other = data;
+    std::swap(other.teeth[0], other.teeth[1]), std::swap(other.base_radius[0], other.base_radius[1]);
+    other.error_phase = -data.error_phase;
+    GearMesh mesh(data), exchanged(other);
+    const Vector3 centre(1.05 * sum_of_radii(data), 0, 0);
+    const auto motion_at = [&](double turned) {
+      return between(wheel_at(Vector3::Zero(), turned), wheel_at(centre, -turned * data.teeth[0] / data.teeth[1]));
+    };
+    const auto back = [](const RelativeMotion& motion) { return between(motion.X_AB, Pose{}); };
+    mesh.mesh_here(motion_at(0)), exchanged.mesh_here(back(motion_at(0)));
+    for (const double turned : {0.0, 0.05, 0.1, 0.15}) {
+      CAPTURE(turned);
+      const double error = mesh.load(motion_at(turned)).deflection;
+      CHECK(error == relative(data.error * std::cos(0.7 + side * data.teeth[0] * turned)).epsilon(1e-8));  // of angles
+      CHECK(exchanged.load(back(motion_at(turned))).deflection == relative(error).epsilon(1e-8));          // of angles
+    }
+  }
 }
 
 // Seen in a mirror that holds the axes: the other hand, torque and sense of rotation.
