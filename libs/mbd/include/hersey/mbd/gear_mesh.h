@@ -53,7 +53,7 @@ class GearMesh final : public TwoBodyForce {
 
   /// Returns what acts in the mesh.
   [[nodiscard]] Load load(const RelativeMotion& motion) const;
-  /// Rate of the deflection [m/s]: zero where the wheels roll in their ratio.
+  /// Rate of the deflection of wheels without errors [m/s]: zero where they roll in their ratio.
   [[nodiscard]] double approach(const RelativeMotion& motion) const;
   [[nodiscard]] const Data& data() const { return data_; }
   /// Of the teeth along the normal [m].
