@@ -297,6 +297,108 @@ class Gears(unittest.TestCase):
         self.assertIn("-1210.53 rpm of the second", done.stderr)
         self.assertIn("forces.mesh", done.stderr)
 
+    def refused(self, text, **values):
+        return self.hersey("run", self.write(text, **values), "--output", self.folder / "out", "--force", code=2).stderr
+
+    def rolling_pair(self, rest, rate=-3000 * Z1 / Z2):
+        """Wheels of which the second has its speed [rpm] from the joint."""
+        text = self.pair(rest)
+        return text.replace("[ground.second, wheel], axis: z", f"[ground.second, wheel], axis: z, initial: {{rotation_rate: {rate!r} rpm}}")
+
+    def test_teeth_are_free_of_force_where_the_assembly_puts_the_joints(self):
+        for start, position in (("0 s", "0.05 + 100*t"), ("0.0123 s", "100*t")):
+            rest = f'drives: {{motor: {{joint: turning, coordinate: rotation, position: {{expression: "{position}", unit: rad}}}}}}\n'
+            rest += f"simulation: {{start: {start}, duration: 2 ms, step: 0.02 ms, spectral_radius: 0.9}}\n"
+            with h5py.File(self.run_model(self.rolling_pair(rest, -100 / RPM * Z1 / Z2), c="3 kN.s/m")) as file:
+                force = file["forces/mesh/mesh_force"][...]
+            self.assertLess(abs(force[0]), 0.01)  # N: 0.03 nm of the teeth, of the assembly's tolerance
+            self.assertLess(np.abs(force).max(), 1)  # N: of Newton's tolerance
+
+    def test_a_rounded_speed_is_corrected(self):
+        rest = DRIVE + "simulation: {duration: 1 ms, step: 0.1 ms, spectral_radius: 0.8}\n"
+        path = self.write(self.rolling_pair(rest, -1210), c="3 kN.s/m")
+        done = self.hersey("run", path, "--output", self.folder / "out", "--force")
+        self.assertIn("joints.other.initial.rotation_rate: -126.7109 rad/s given, -126.766 rad/s at the start", done.stderr)
+        with h5py.File(next((self.folder / "out").rglob("*.h5"))) as file:
+            rate, force = file["joints/other/rates"][0], file["forces/mesh/mesh_force"][0]
+        self.assertAlmostEqual(float(np.ravel(rate)[0]) / (-3000 * RPM * Z1 / Z2), 1, delta=1e-12)  # round-off
+        self.assertLess(abs(force), 0.01)  # N: round-off of angles
+        self.assertIn("rotation -1210.53 rpm under `initial`", self.refused(self.rolling_pair(rest, -1200)))
+
+    def test_two_drives_have_to_be_in_ratio(self):
+        drives = DRIVE.replace("}}\n", '}, second: {joint: other, coordinate: rotation, speed: -1205 rpm}}\n')
+        text = self.pair(drives + "simulation: {analysis: steady}\n")
+        found = self.refused(text)
+        self.assertIn("drives rotate both", found)
+        self.assertIn("-1210.526316 rpm of the second", found)
+        with h5py.File(self.run_model(text.replace("-1205 rpm", f"{-3000 * Z1 / Z2!r} rpm"))) as file:
+            self.assertLess(abs(file["forces/mesh/mesh_force"][-1]), 1)  # N: Newton's tolerance
+
+    def test_a_planet_rolls_on_a_wheel_that_stands_still(self):
+        text = """hersey: 1
+bodies:
+  ground: {}
+  carrier: {mass: 1 kg, inertia: {xx: 0.01 kg.m^2, yy: 0.01 kg.m^2, zz: 0.01 kg.m^2}, frames: {pin: {origin: 92 0 0 mm}}}
+  planet: {mass: 2 kg, inertia: {xx: 0.003 kg.m^2, yy: 0.003 kg.m^2, zz: 0.003 kg.m^2}}
+joints:
+  arm: {type: revolute, between: [ground, carrier], axis: z}
+  pin: {type: revolute, between: [carrier.pin, planet], axis: z}
+forces:
+  mesh: {type: gear_mesh, between: [ground, planet], teeth: [23, 23], normal_module: 4 mm, torque_on_first: positive, stiffness: 400 MN/m}
+drives: {motor: {joint: arm, coordinate: rotation, speed: 100 rpm}}
+simulation: {analysis: steady}
+"""
+        with h5py.File(self.run_model(text)) as file:
+            self.assertAlmostEqual(float(np.ravel(file["joints/pin/rates"][-1])[0]) / (100 * RPM), 1, delta=1e-9)  # round-off
+        found = self.refused(text.replace("analysis: steady", "duration: 0.1 s, step: 0.1 ms"))
+        self.assertIn("200 rpm of the second", found)
+        self.assertIn("give joint pin, rotation 100 rpm under `initial`", found)
+        self.assertNotIn("-0 rpm", found)
+
+    def test_wheels_that_no_joint_rotates_are_named(self):
+        steady = DRIVE + "simulation: {analysis: steady}\n"
+        for text in (self.pair(steady, second="prismatic"), self.pair(steady).replace("[pinion, wheel]", "[pinion, ground.second]")):
+            found = self.refused(text)
+            self.assertIn("no joint lets the second wheel rotate", found)
+            self.assertNotIn("-0 rpm", found)
+
+    def test_wheels_roll_by_the_joint_that_no_spring_holds(self):
+        text = self.pair(DRIVE + "simulation: {analysis: steady}\n", more="  hold: {type: torsion_spring, joint: arm, stiffness: 1 MN.m/rad}\n")
+        text = text.replace("joints:\n", "  housing: {mass: 30 kg, inertia: {xx: 0.5 kg.m^2, yy: 0.5 kg.m^2, zz: 0.9 kg.m^2}}\njoints:\n"
+                            "  arm: {type: revolute, between: [ground.second, housing], axis: z}\n").replace("[ground.second, wheel]", "[housing, wheel]")
+        with h5py.File(self.run_model(text)) as file:
+            arm, other = (float(np.ravel(file[f"joints/{name}/rates"][-1])[0]) for name in ("arm", "other"))
+        self.assertEqual(arm, 0)
+        self.assertAlmostEqual(other / (-3000 * RPM * Z1 / Z2), 1, delta=1e-9)  # round-off
+
+    def test_what_couplings_tie_to_a_wheel_rolls_with_it(self):
+        text = self.pair("couplings: {tie: {type: gear, input: other.rotation, output: far.rotation, ratio: -2}}\n" + DRIVE
+                         + "simulation: {analysis: steady}\n")
+        text = text.replace("joints:\n", "  third: {mass: 2 kg, inertia: {xx: 0.01 kg.m^2, yy: 0.01 kg.m^2, zz: 0.02 kg.m^2}}\njoints:\n"
+                            "  far: {type: revolute, between: [ground, third], axis: z}\n")
+        with h5py.File(self.run_model(text, torque="100 N.m")) as file:
+            other, far = (float(np.ravel(file[f"joints/{name}/rates"][-1])[0]) for name in ("other", "far"))
+        self.assertAlmostEqual(other / (-3000 * RPM * Z1 / Z2), 1, delta=1e-9)  # round-off
+        self.assertAlmostEqual(far / other, -2, delta=1e-9)  # round-off
+
+    def test_wheels_roll_in_the_ratio_of_their_teeth_whatever_the_error(self):
+        text = self.rolling_pair(DRIVE + "simulation: {duration: 1 ms, step: 0.02 ms, spectral_radius: 0.9}\n")
+        text = text.replace('damping: "${c}"', 'damping: "${c}", transmission_error: {amplitude: 3 um, phase: 90 deg}')
+        done = self.hersey("run", self.write(text), "--output", self.folder / "out", "--force")
+        self.assertNotIn("at the start", done.stderr)  # the error's rate is none of the wheels
+        with h5py.File(next((self.folder / "out").rglob("*.h5"))) as file:
+            other = float(np.ravel(file["joints/other/rates"][0])[0])
+        self.assertAlmostEqual(other / (-3000 * RPM * Z1 / Z2), 1, delta=1e-12)  # round-off
+
+    def test_faults_of_a_mesh_name_its_line(self):
+        steady = DRIVE + "simulation: {analysis: steady}\n"
+        found = self.refused(self.pair(steady, distance=0.4))
+        self.assertRegex(found, r"model.yaml:\d+:\d+: forces.mesh: .*their teeth reach each other up to 168 mm")
+        text = self.pair(steady).replace('damping: "${c}"', 'damping: "${c}", transmission_error: {amplitude: 5 mm}')
+        found = self.refused(text)
+        self.assertRegex(found, r"forces.mesh: .*its teeth deflect by 5 mm")
+        self.assertNotIn("journal", found)
+
     def test_wheels_too_near_are_refused(self):
         done = self.hersey("run", self.write(self.pair(DRIVE + "simulation: {analysis: steady}\n", distance=0.149)), "--output", self.folder / "out", "--force", code=2)
         self.assertIn("need more than the sum of their base radii", done.stderr)
@@ -329,6 +431,17 @@ class Gears(unittest.TestCase):
         basis = np.stack([np.cos(w * t[last]), np.sin(w * t[last]), np.ones(last.sum())], axis=1)
         (real, imaginary, _), *_ = np.linalg.lstsq(basis, found[last], rcond=None)
         self.assertLess(abs(complex(real, -imaginary) - expected), 2e-3 * abs(expected))  # steps of a 430th of a tooth
+
+    def test_steps_by_their_error_resolve_the_teeth(self):
+        found = []
+        for step in ("{tolerance: 1e-4}", "2 us"):
+            rest = f"simulation: {{duration: 0.02 s, step: {step}, spectral_radius: 0.95}}\n"
+            text = self.with_error(DRIVE + rest, 3).replace(repr(-300 * Z1 / Z2), repr(-3000 * Z1 / Z2))
+            with h5py.File(self.run_model(text, c="3 kN.s/m", torque="200 N.m")) as file:
+                found.append((file["time"][...], file["forces/mesh/mesh_deflection"][...]))
+        t = np.linspace(0, 0.02, 20001)
+        chosen, exact = (np.interp(t, *one) for one in found)
+        self.assertLess(np.abs(chosen - exact).max(), 0.1 * np.ptp(exact))  # of local errors of 1 %, over 23 teeth
 
     def test_energy_of_a_run_is_in_balance(self):
         shares = []

@@ -226,9 +226,34 @@ TEST_CASE("GearMesh_DoesNotDependOnTheOrderOfItsWheels") {
   CHECK((force_transform(motion.X_AB) * on_first + W).norm() < 1e-9 * W.norm());  // digits that deflections lose
 }
 
+// The teeth of wheels that roll come once, whichever wheel counts them; the other one counts them the other way.
+TEST_CASE("TransmissionError_HasTheOppositePhaseWithItsWheelsExchanged") {
+  for (const int side : {1, -1}) {
+    GearMesh::Data data = data_of(side, 0);
+    data.error = 3e-6, data.error_phase = 0.7;
+    GearMesh::Data other = data;
+    std::swap(other.teeth[0], other.teeth[1]), std::swap(other.base_radius[0], other.base_radius[1]);
+    other.error_phase = -data.error_phase;
+    GearMesh mesh(data), exchanged(other);
+    const Vector3 centre(1.05 * sum_of_radii(data), 0, 0);
+    const auto motion_at = [&](double turned) {
+      return between(wheel_at(Vector3::Zero(), turned), wheel_at(centre, -turned * data.teeth[0] / data.teeth[1]));
+    };
+    const auto back = [](const RelativeMotion& motion) { return between(motion.X_AB, Pose{}); };
+    mesh.mesh_here(motion_at(0)), exchanged.mesh_here(back(motion_at(0)));
+    for (const double turned : {0.0, 0.05, 0.1, 0.15}) {
+      CAPTURE(turned);
+      const double error = mesh.load(motion_at(turned)).deflection;
+      CHECK(error == relative(data.error * std::cos(0.7 + side * data.teeth[0] * turned)).epsilon(1e-8));  // of angles
+      CHECK(exchanged.load(back(motion_at(turned))).deflection == relative(error).epsilon(1e-8));          // of angles
+    }
+  }
+}
+
 // Seen in a mirror that holds the axes: the other hand, torque and sense of rotation.
 TEST_CASE("GearMesh_HasAMirrorImage") {
-  const GearMesh::Data data = data_of(1, 0.25);
+  GearMesh::Data data = data_of(1, 0.25);
+  data.error = 3e-6, data.error_phase = 0.7;
   GearMesh::Data other = data;
   other.side = -1, other.base_helix = -data.base_helix;
   GearMesh mesh(data), mirrored(other);
@@ -251,7 +276,8 @@ TEST_CASE("GearMesh_HasAMirrorImage") {
 }
 
 TEST_CASE("GearMesh_SaysWhatItCannotDo") {
-  const GearMesh::Data data = data_of(1, 0);
+  GearMesh::Data data = data_of(1, 0);
+  data.reach = 1.1 * sum_of_radii(data);
   GearMesh mesh(data);
   const Vector3 centre(1.05 * sum_of_radii(data), 0, 0);
   mesh.mesh_here(between(Pose{}, wheel_at(centre, 0)));
@@ -261,6 +287,8 @@ TEST_CASE("GearMesh_SaysWhatItCannotDo") {
     return mesh.domain_error();
   };
   CHECK(fault(between(Pose{}, wheel_at(0.9 * centre, 0))).find("sum of their base radii") != std::string::npos);
+  CHECK(fault(between(Pose{}, wheel_at(1.06 * centre, 0))).find("their teeth reach each other up to") !=
+        std::string::npos);
   CHECK(fault(between(Pose{}, wheel_at(centre, 0.4 * 2 * kPi / data.teeth[1]))).find("a quarter of their pitch") !=
         std::string::npos);
   RelativeMotion crossed = between(Pose{}, wheel_at(centre, 0));

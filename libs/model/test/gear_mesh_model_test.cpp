@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "hersey/model/build.h"
 #include "model_text.h"
 
 namespace hersey::model {
@@ -38,19 +37,12 @@ TEST_CASE("Teeth_GiveTheBaseCirclesOfTheirPitch") {
   // Along the normal of the flanks one tooth follows the other after the base pitch of the basic rack.
   const double pitch = 2 * std::numbers::pi * data.base_radius[0] / 23 * std::cos(data.base_helix);
   CHECK(pitch == doctest::Approx(std::numbers::pi * 4e-3 * std::cos(20 * std::numbers::pi / 180)).epsilon(kRoundOff));
+  // Tip circles, a module outside the reference circles, touch there.
+  CHECK(data.reach == doctest::Approx(4e-3 * 80 / 2 / std::cos(15 * std::numbers::pi / 180) + 8e-3).epsilon(kRoundOff));
   // The lead is that of the reference cylinder.
   const double reference = 4e-3 * 23 / 2 / std::cos(15 * std::numbers::pi / 180);
   CHECK(std::tan(data.base_helix) / data.base_radius[0] ==
         doctest::Approx(std::tan(15 * std::numbers::pi / 180) / reference).epsilon(kRoundOff));
-}
-
-TEST_CASE("Wheels_MeshWithoutForceWhereTheirJointsStart") {
-  const Machine machine = build(read_text(kStage, "m.yaml"));
-  REQUIRE(machine.meshes.size() == 1);
-  const BuiltMesh& mesh = machine.meshes[0];
-  const auto load = mesh.mesh->load(machine.mechanism->relative_motion(machine.mechanism->initial_state(), mesh.force));
-  CHECK(std::abs(load.deflection) < 1e-16);  // m: round-off of the radii
-  CHECK(load.axial == doctest::Approx(0));
 }
 
 TEST_CASE("FaultsOfAGearMesh_NameTheKey") {
@@ -60,8 +52,14 @@ TEST_CASE("FaultsOfAGearMesh_NameTheKey") {
   CHECK(after("torque_on_first: negative", "torque_on_first: backward").find("positive") != std::string::npos);
   CHECK(after("    torque_on_first: negative\n", "").find("torque_on_first") != std::string::npos);
   CHECK(after("helix_angle: 15 deg", "helix_angle: 75 deg").find("forces.mesh.helix_angle") != std::string::npos);
-  CHECK(after("between: [pinion, wheel]", "between: [pinion, pinion]").find("wheels on two bodies") !=
+  CHECK(after("between: [pinion, wheel]", "between: [pinion, pinion]").find("frames of two bodies") !=
         std::string::npos);
+}
+
+TEST_CASE("AWheelMeshingWithItself_IsOneFault") {
+  const std::string faults = faults_of(edited(kStage, "between: [pinion, wheel]", "between: [pinion, pinion]"));
+  CHECK(faults.find("frames of two bodies") != std::string::npos);
+  CHECK(faults.find("two wheels") == std::string::npos);
 }
 
 }  // namespace gear_mesh_model_test

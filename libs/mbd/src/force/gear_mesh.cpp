@@ -89,7 +89,8 @@ GearMesh::Deflection GearMesh::deflection(const RelativeMotion& motion) const {
   found.along.value -= pitch_ * std::round(found.along.value / pitch_);
   // (rotors.19): once a tooth of the first wheel, which turns on as it sees the second turn back.
   if (data_.error != 0)
-    found.along = found.along + data_.error * cos(data_.error_phase - data_.teeth[0] * (found.seen - free_phase_));
+    found.along =
+        found.along + data_.error * cos(data_.error_phase - data_.side * data_.teeth[0] * (found.seen - free_phase_));
   return found;
 }
 
@@ -113,6 +114,10 @@ void GearMesh::evaluate(const RelativeMotion& motion, bool want_tangent, ForceRe
         "their base radii, {:.6g} mm",
         1e3 * (data_.base_radius[0] + data_.base_radius[1]) / found.cos_alpha,
         1e3 * (data_.base_radius[0] + data_.base_radius[1]));
+  else if (data_.base_radius[0] + data_.base_radius[1] > found.cos_alpha * data_.reach)
+    fault_ = fmt::format(
+        "its wheels are {:.6g} mm apart across their axes, and their teeth reach each other up to {:.6g} mm",
+        1e3 * (data_.base_radius[0] + data_.base_radius[1]) / found.cos_alpha, 1e3 * data_.reach);
   else if (std::abs(found.along.value) > kMostOfPitch * pitch_)
     fault_ = fmt::format(
         "its teeth deflect by {:.3g} mm, more than a quarter of their pitch: the mesh is too soft for "
@@ -140,11 +145,11 @@ double GearMesh::stored_energy(const RelativeMotion& motion) const {
 }
 
 double GearMesh::lost_power(const RelativeMotion& motion) const {
-  const double rate = approach(motion);
+  const double rate = deflection(motion).along.d.dot(motion.V_AB_A);
   return data_.damping * rate * rate;
 }
 
-double GearMesh::approach(const RelativeMotion& motion) const { return deflection(motion).along.d.dot(motion.V_AB_A); }
+double GearMesh::approach(const RelativeMotion& motion) const { return geometry(motion).along.d.dot(motion.V_AB_A); }
 
 GearMesh::Load GearMesh::load(const RelativeMotion& motion) const {
   const Deflection found = deflection(motion);

@@ -135,6 +135,16 @@ std::vector<Mechanism::Index> Mechanism::driven_coordinates() const {
   return components;
 }
 
+std::vector<Mechanism::Index> Mechanism::sprung_coordinates() const {
+  const MechanismParts& m = *parts_;
+  std::vector<Index> components;
+  for (std::size_t i = 0; i < m.spec.springs.size(); ++i)
+    if (m.spec.springs[i].stiffness != 0) components.push_back(m.spring_columns[i]);
+  for (std::size_t i = 0; i < m.spec.coordinate_forces.size(); ++i)
+    if (m.spec.coordinate_forces[i].force->is_store()) components.push_back(m.coordinate_force_columns[i]);
+  return components;
+}
+
 void Mechanism::increment_rate(const Eigen::VectorXd& dq, const Eigen::VectorXd& v, Eigen::VectorXd& rate) const {
   rate = v;
   for (const Link& link : parts_->tree.links) {

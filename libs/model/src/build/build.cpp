@@ -113,12 +113,6 @@ class Builder {
     machine_.grooves = model_.thermal.grooves;
     machine_.frames = frames_;
     machine_.mechanism = mechanism_.finalise();
-    // Gears mesh where the joints start.
-    if (!machine_.meshes.empty()) {
-      const solver::State start = machine_.mechanism->initial_state();
-      for (const BuiltMesh& mesh : machine_.meshes)
-        mesh.mesh->mesh_here(machine_.mechanism->relative_motion(start, mesh.force));
-    }
     return std::move(machine_);
   }
 
@@ -328,7 +322,7 @@ class Builder {
 
   void add(const std::string& name, const GearMesh& mesh) {
     const auto made = std::make_shared<mbd::GearMesh>(mesh.data);
-    machine_.meshes.push_back({name, mechanism_.add_force(name, frame(mesh.from), frame(mesh.to), made), made});
+    machine_.gear_meshes.push_back({name, mechanism_.add_force(name, frame(mesh.from), frame(mesh.to), made), made});
   }
 
   void add(const std::string& name, const CoordinateSpring& spring) {

@@ -12,7 +12,8 @@ TypePtr step_format() {
       {
           required("tolerance", number("1e-4", {.low = 1e-12, .high = 0.1}),
                    "Largest error of position that a step may add: angles in rad, lengths over the machine's size, "
-                   "positions of journals over their clearance."),
+                   "positions of journals over their clearance, deflections of gears' teeth over a hundredth of their "
+                   "pitch."),
           defaulted("smallest", quantity("s", "1e-9 s", Range::positive()), "1e-9 s",
                     "A step that needs to be shorter ends the run."),
           optional("largest", fixed, "Longest step, or the crank's angle.", "a fiftieth of the run"),

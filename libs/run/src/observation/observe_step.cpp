@@ -43,7 +43,7 @@ StepRecord observe_step(const model::Machine& machine, const solver::State& stat
     const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;
     record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
   }
-  for (const model::BuiltMesh& mesh : machine.meshes)
+  for (const model::BuiltMesh& mesh : machine.gear_meshes)
     record.meshes.push_back(mesh.mesh->load(mechanism.relative_motion(state, mesh.force)));
   if (machine.network) record.network = machine.network->observables();
   if (machine.circuit) record.circuit = machine.circuit->observation();

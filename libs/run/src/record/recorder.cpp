@@ -95,7 +95,7 @@ void Recorder::declare() {
   for (const model::BuiltBeam& beam : machine_.beams) beams_.emplace_back(model_, machine_, beam, writer_);
   for (const model::Contact& contact : model_.contacts) contacts_.emplace_back(contact, writer_);
   for (const model::BuiltRing& ring : machine_.rings) rings_.emplace_back(ring, writer_);
-  for (const model::BuiltMesh& mesh : machine_.meshes) meshes_.emplace_back(mesh, writer_);
+  for (const model::BuiltMesh& mesh : machine_.gear_meshes) meshes_.emplace_back(mesh, writer_);
   for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
     const bearing::FilmForce& film = *machine_.bearings[i].bearing;
     bearings_.emplace_back(BearingPlan{model_, model_.bearings[i], film.fields()}, film, writer_);

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::string> names_of_meshes(const model::Machine& machine) {
   std::vector<std::string> names;
-  for (const model::BuiltMesh& mesh : machine.meshes) names.push_back(mesh.name);
+  for (const model::BuiltMesh& mesh : machine.gear_meshes) names.push_back(mesh.name);
   return names;
 }
 

@@ -81,7 +81,7 @@ const QuantityTable<SystemRow, model::Model>& system_quantities() {
       {"solver/step_error",
        "1",
        "estimated local error of the step: angles in rad, lengths over the machine's size, positions of journals over "
-       "their clearance",
+       "their clearance, deflections of gears' teeth over a hundredth of their pitch",
        of_step(&S::step_error),
        {.note = "analysis `dynamics`; with a fixed step of no coordinate more than its way in the step",
         .only = integrates,

@@ -456,7 +456,8 @@ std::string integration(const model::Simulation& run) {
   const std::string step = run.error_control
                                ? fmt::format(
                                      "steps of an error of {:.1e} in angles, lengths over the machine's size and "
-                                     "journals over their clearance (the film's own error is not estimated)",
+                                     "journals over their clearance, teeth over a hundredth of their pitch (the film's "
+                                     "own error is not estimated)",
                                      run.error_control->tolerance)
                                : fmt::format("step {:.4g} us", 1e6 * run.step);
   if (run.integrator == model::Integrator::dormand_prince)

@@ -21,9 +21,17 @@
 namespace hersey::run {
 namespace {
 
+/// Of forces, which messages name without a word for them: "at the start, t = 0 s: mesh: its teeth ...".
+std::string path_of_force(const model::Model& model, const std::string& message) {
+  for (const model::Force& force : model.forces)
+    if (message.find(": " + force.name + ": ") != std::string::npos) return "forces." + force.name;
+  return {};
+}
+
 Fault fault_at(const model::Model& model, const std::string& row, std::string found, std::string expected,
                std::string suggestion) {
-  const std::string path = path_of_named_part(row);
+  std::string path = path_of_force(model, row);
+  if (path.empty()) path = path_of_named_part(row);
   SourcePosition position = path.empty() ? SourcePosition{model.file, 0, 0} : model.position_of(path);
   return {std::move(position), path, std::move(found), std::move(expected), std::move(suggestion)};
 }
@@ -73,6 +81,10 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
   if (summary.status == Status::domain_error && summary.message.find(": its wheels are") != std::string::npos) {
     return {fault_at(model, summary.message, summary.message, "wheels whose teeth reach each other",
                      "place the frames of `between` on the wheels' axes, at the centre distance of the gears")};
+  }
+  if (summary.status == Status::domain_error && summary.message.find(": its teeth deflect") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "teeth that stay with the ones they mesh with",
+                     "see that `stiffness`, `transmission_error` and torques are in the units meant")};
   }
   if (summary.status == Status::domain_error && summary.message.find(": the axes of its wheels") != std::string::npos) {
     return {fault_at(model, summary.message, summary.message, "parallel shafts",
@@ -147,6 +159,25 @@ void deform(const model::Model& model, model::Machine& machine, solver::Initiali
                          "start nearer to the motion that follows, or undeformed with initial_deformation: none"});
 }
 
+/// Lets gears mesh without force where the joints stand once the mechanism is assembled.
+void mesh_gears(model::Machine& machine, const solver::State& start, const solver::InitialiseOptions& options) {
+  if (machine.gear_meshes.empty()) return;
+  solver::State assembled = start;
+  if (!solver::assemble_positions(*machine.mechanism, assembled, options).solved()) return;  // `initialise` says why
+  for (const model::BuiltMesh& mesh : machine.gear_meshes)
+    mesh.mesh->mesh_here(machine.mechanism->relative_motion(assembled, mesh.force));
+}
+
+/// Gives the wheels that no drive rotates the speeds at which they roll, and what is tied to them speeds that fit.
+void let_wheels_roll(const model::Model& model, model::Machine& machine, solver::InitialiseOptions options,
+                     solver::State& state) {
+  options.fixed_rates =
+      model.simulation.is_steady_motion() ? roll_wheels(machine, state) : roll_wheels(machine, state, kRoundedSpeed);
+  if (options.fixed_rates.empty()) return;
+  const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
+  if (!summary.solved()) throw InputError(faults_of(model, summary));
+}
+
 }  // namespace
 
 solver::State starting_state(const model::Model& model, model::Machine& machine) {
@@ -159,10 +190,11 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   options.fixed_rates = machine.mechanism->given_rates();
   options.stiff = machine.mechanism->elastic_coordinates();
   options.balances_massless = !model.simulation.is_steady_motion();
+  mesh_gears(machine, state, options);
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.solved()) throw InputError(faults_of(model, summary));
   require_given_start(model, *machine.mechanism, state, summary);
-  if (model.simulation.is_steady_motion()) roll_wheels(machine, state);
+  if (keeps_speeds(model.simulation)) let_wheels_roll(model, machine, options, state);
   if (keeps_speeds(model.simulation)) require_rolling_wheels(model, machine, state);
   require_clearance(model, machine, state);
   deform(model, machine, options, state);

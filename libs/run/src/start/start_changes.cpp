@@ -114,8 +114,8 @@ std::vector<Fault> start_warnings(const model::Model& model, mbd::Mechanism& mec
     Fault warning = fault_of(model, mechanism, change);
     warning.found =
         fmt::format("{} given, {} at the start", text_of(change, change.given), text_of(change, change.found));
-    warning.expected = "values that loops, drives and couplings can fulfil together";
-    warning.suggestion = "leave out what follows from other values";
+    warning.expected = "values that loops, drives, couplings and gears can fulfil together";
+    warning.suggestion = "leave out what follows from other values, or write it with all of its digits";
     warnings.push_back(std::move(warning));
   }
   return warnings;
@@ -126,9 +126,10 @@ std::vector<std::pair<std::string, std::string>> start_rows(const model::Model& 
   std::vector<std::pair<std::string, std::string>> rows;
   if (!keeps_start(model.simulation)) return rows;
   for (const mbd::ChangedStart& change : mechanism.changed_values(start)) {
-    rows.emplace_back(fmt::format("start moved: joint {}, {}", joint_of(mechanism, change), coordinate_of(change)),
-                      fmt::format("{} given, {} taken: the least change with which loops, drives and couplings fit",
-                                  text_of(change, change.given), text_of(change, change.found)));
+    rows.emplace_back(
+        fmt::format("start moved: joint {}, {}", joint_of(mechanism, change), coordinate_of(change)),
+        fmt::format("{} given, {} taken: the least change with which loops, drives, couplings and gears fit",
+                    text_of(change, change.given), text_of(change, change.found)));
   }
   return rows;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "hersey/mbd/two_body_force.h"
 
@@ -20,11 +21,13 @@ class GearMesh final : public TwoBodyForce {
     std::array<int, 2> teeth{};           ///< numbers of teeth, > 0
     std::array<double, 2> base_radius{};  ///< [m], > 0, in the ratio of the numbers of teeth
     double base_helix = 0;                ///< helix angle of the first wheel on its base cylinder; > 0: right-handed
-    int side = 1;                         ///< sign of the torque by which its shaft drives the first wheel, 1 or -1
+    int side = 1;                         ///< sign of the torque on the first wheel by all but this mesh, 1 or -1
     double stiffness = 0;                 ///< along the normal of the flanks [N/m], >= 0
     double damping = 0;                   ///< likewise [N s/m], >= 0
     double error = 0;                     ///< amplitude of the transmission error along the normal [m]
-    double error_phase = 0;               ///< at the position of `mesh_here`
+    double error_phase = 0;               ///< at the position of `mesh_here`; grows as the first wheel turns by `side`
+    /// Distance of the axes up to which teeth reach each other [m].
+    double reach = std::numeric_limits<double>::infinity();
   };
 
   /// What a mesh exerts. Components are those of the force on the first wheel, at its pitch circle in service.
@@ -50,9 +53,11 @@ class GearMesh final : public TwoBodyForce {
 
   /// Returns what acts in the mesh.
   [[nodiscard]] Load load(const RelativeMotion& motion) const;
-  /// Rate of the deflection [m/s]: zero where the wheels roll in their ratio.
+  /// Rate of the deflection of wheels without errors [m/s]: zero where they roll in their ratio.
   [[nodiscard]] double approach(const RelativeMotion& motion) const;
   [[nodiscard]] const Data& data() const { return data_; }
+  /// Of the teeth along the normal [m].
+  [[nodiscard]] double pitch() const { return pitch_; }
 
  private:
   struct Deflection;

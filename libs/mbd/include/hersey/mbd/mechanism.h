@@ -70,6 +70,9 @@ class Mechanism final : public solver::Equations {
   /// Returns the velocity components that drives prescribe.
   [[nodiscard]] std::vector<Index> driven_coordinates() const;
 
+  /// Returns the velocity components that springs on joints hold.
+  [[nodiscard]] std::vector<Index> sprung_coordinates() const;
+
   /// Returns the velocity components whose initial position the user prescribed: InitialiseOptions::fixed.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 

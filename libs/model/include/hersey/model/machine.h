@@ -94,7 +94,7 @@ struct Machine {
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
   std::vector<BuiltRing> rings;
-  std::vector<BuiltMesh> meshes;
+  std::vector<BuiltMesh> gear_meshes;
   std::vector<BuiltBeam> beams;
   std::map<std::pair<std::string, std::string>, mbd::FrameId> frames;  ///< by body and frame; "": the body's own
 };

@@ -383,8 +383,7 @@ struct Cycle {
 
 /// Steps chosen by their error.
 struct ErrorControl {
-  double tolerance = 1e-4;  ///< of the local error of a step: angles, lengths over the machine's size, and journals'
-                            ///< positions over their clearance
+  double tolerance = 1e-4;  ///< of the local error of a step: see run::StepError
   double smallest = 1e-9;   ///< [s]
   double largest = 0;       ///< [s]
 };

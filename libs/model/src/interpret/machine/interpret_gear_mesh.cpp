@@ -14,11 +14,14 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 TypePtr error_format() {
-  return object("a transmission error",
-                {required("amplitude", quantity("m", "2 um", Range::not_negative()),
-                          "Amplitude along the normal of the flanks, once a tooth."),
-                 defaulted("phase", quantity("rad", "90 deg"), "0 deg",
-                           "Of the tooth where the joints start; at 0 deg the teeth press most there.")});
+  return object(
+      "a transmission error",
+      {required("amplitude", quantity("m", "2 um", Range::not_negative()),
+                "Amplitude along the normal of the flanks, once a tooth."),
+       defaulted(
+           "phase", quantity("rad", "90 deg"), "0 deg",
+           "Of the tooth at the start; at 0 deg the teeth press most there. It grows as the first wheel turns the "
+           "way of `torque_on_first`: with the other wheel named first, the phase has the other sign.")});
 }
 
 /// Radii of the base circles and helix angle on them (rotors.16).
@@ -29,6 +32,9 @@ void set_teeth(const Value& value, double module, double pressure, double helix,
     data.teeth[i] = static_cast<int>(std::lround(teeth->members[i].value.number));
     data.base_radius[i] = 0.5 * module * data.teeth[i] / std::cos(helix) * std::cos(transverse);
   }
+  // Tip circles of wheels without profile shift, which stand out by a module, touch there; shifts that make wheels
+  // larger move their axes apart by nearly as much.
+  data.reach = module * (0.5 * (data.teeth[0] + data.teeth[1]) / std::cos(helix) + 2);
   data.base_helix = std::asin(std::sin(helix) * std::cos(pressure));
 }
 
@@ -50,8 +56,9 @@ std::vector<Key> gear_mesh_keys() {
                 "Helix angle of the first wheel at its reference circle: positive for right-handed teeth, negative for "
                 "left-handed ones, at most 60 deg; the second wheel has the other hand."),
       required("torque_on_first", choice(torque_sign_words),
-               "Sign of the torque by which its shaft acts on the first wheel, which says on which flanks teeth touch; "
-               "they touch there at all times."),
+               "Sign of the torque by which its shaft, or on an idler all but this mesh, acts on the first wheel. It "
+               "says on "
+               "which flanks teeth touch; they touch there at all times."),
       required("stiffness", quantity("N/m", "400 MN/m", Range::not_negative()),
                "Mesh stiffness along the normal of the flanks, of all teeth in contact together."),
       defaulted("damping", quantity("N.s/m", "2 kN.s/m", Range::not_negative()), "0 N.s/m", "Likewise."),
@@ -63,9 +70,6 @@ std::vector<Key> gear_mesh_keys() {
 GearMesh gear_mesh_of(Context& context, const Value& value) {
   GearMesh mesh;
   std::tie(mesh.from, mesh.to) = pair_of(context, value);
-  if (const Value* between = value.find("between");
-      between != nullptr && !between->broken && !mesh.from.body.empty() && mesh.from.body == mesh.to.body)
-    context.fault(*between, "two wheels on '" + mesh.from.body + "'", "wheels on two bodies");
   mesh.data.side = meaning_of(value, "torque_on_first", torque_sign_words) ? 1 : -1;
   mesh.data.stiffness = number_of(value, "stiffness");
   mesh.data.damping = number_of(value, "damping");
