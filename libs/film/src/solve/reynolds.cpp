@@ -85,12 +85,11 @@ struct Reynolds::Impl {
   Eigen::MatrixXd unsolved, residual_by_s, adjoint, products, answers, port_flow_by_u;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> adjoint_rows;
   Eigen::VectorXd condensed_residual, increment;
-  // Where outputs are found by the adjoint, shapes need no columns of residual_by_s: it has those of the directions.
   ShapeAnswers shape_answers;
-  MotionDirection along_amplitude, along_rate;
-  Eigen::Index before_shapes = 0;  // directions whose columns stand before those of the shapes
-  bool shapes_by_operator = false;
-  SurfaceMotion speeds;    // without gap and rate
+  MotionDirection along_amplitude, along_rate;  // of a shape that is a column of its own
+  Eigen::Index before_shapes = 0;               // directions whose columns stand before those of the shapes
+  bool shapes_by_operator = false;              // residual_by_s has columns of the directions alone
+  SurfaceMotion speeds;                         // without gap and rate
   bool evaluated = false;  // `balance` has the state of the last evaluation, which was inside the domain
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
   bool condensed = false;

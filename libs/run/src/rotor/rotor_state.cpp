@@ -335,8 +335,7 @@ class RotorFinder {
       if (!(load.normal < 0 && load.deflection < -kTeethPart)) continue;
       rotor_.warning += fmt::format(
           "{}gear mesh {}: its teeth would part, at a mesh force of {:.4g} N, and the mesh pulls there instead; a "
-          "torque "
-          "of the other sign wants another `torque_on_first`",
+          "torque of the other sign wants another `torque_on_first`",
           rotor_.warning.empty() ? "" : "; ", forces[i].name, load.normal);
     }
   }
